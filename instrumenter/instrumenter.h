@@ -1,0 +1,202 @@
+// Probes on an analysed shader -> the text of an instrumented shader, and the layout of the words it captures.
+// Plain functions from text to text: no OpenGL here. Method: Strengert 2010, 7.1.4.
+//
+// In every instrumented text the user's own tokens stand unchanged and in order, with insertions; the only
+// replacements are the name of `main` (wrapped, so that captured words are written at every end of the thread),
+// the names of functions cloned along a call path, and gl_FragColor (see fragment_outputs.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "glsl-frontend/shader.h"
+
+namespace shadestep::instrumenter {
+
+// How captured words leave the shader.
+enum class Carrier {
+  uint_attachments,   // uvec4 outputs, bit for bit (GLSL >= 1.30 / ES 3.00)
+  float_attachments,  // vec4 outputs via gl_FragData (GLSL < 1.30): floats as they are, integers as 16-bit halves
+  storage,            // words appended to a storage buffer
+};
+
+// What the driver offers; the session fills it in from the agent's answer.
+struct Target {
+  bool storage_buffers = false;   // GL_ARB_shader_storage_buffer_object usable in this stage
+  bool bit_encoding = false;      // floatBitsToInt available or enabled by GL_ARB_shader_bit_encoding
+  bool shader_clock = false;      // GL_ARB_shader_clock
+  int max_draw_buffers = 8;
+  int used_draw_buffers = 1;      // colour outputs that the program's own framebuffer uses
+};
+
+// One captured scalar component in a block of words.
+// uint_attachments and storage: `words` = 1 (2 for 64-bit types, low word first).
+// float_attachments: float takes 1 channel; int, uint, bool take 2 (low 16 bits, high 16 bits, each as a float).
+struct Field {
+  std::string name;      // the watched expression or variable
+  frontend::Type type;
+  int first_word = 0;    // index into the thread's or record's words
+};
+
+// Words per thread, in attachments of 4 channels each. Word 0 is the *mark*: 0 = no fragment of the draw is
+// visible here; kLaunched = the thread ran; kLaunched | kReached = it got to the probe.
+inline constexpr std::uint32_t kLaunched = 1;
+inline constexpr std::uint32_t kReached = 2;
+struct AttachmentLayout {
+  Carrier carrier = Carrier::uint_attachments;
+  int words = 1;                        // including the mark
+  std::vector<Field> fields;
+  std::vector<std::string> outputs;     // names of the capture outputs, in order; empty with gl_FragData, where
+                                        // capture outputs are gl_FragData[first_frag_data ...]
+  int first_frag_data = 0;
+  int attachments() const { return (words + 3) / 4; }
+};
+
+// What one record in a recording says.
+enum class Event {
+  function_enter,   // values: parameters that come in
+  function_leave,   // fell off the end; values: out parameters
+  before,           // about to run a statement that calls user functions, or any loop
+  statement,        // ran it; values: what it may have changed (in scope), declared variables
+  condition,        // evaluated it; first value is the outcome "" (bool; int/uint for switch), then what changed
+  iteration,        // at the start of a loop's body
+  return_,          // about to return; first value is the returned one, named "return", if any
+  jump,             // about to break, continue or discard
+};
+struct RecordLayout {
+  Event event = Event::statement;
+  frontend::StatementId statement = frontend::kNone;
+  frontend::FunctionId function = frontend::kNone;
+  std::vector<Field> fields;   // first_word counts from after the record's id
+  int words = 0;               // without the id
+};
+
+// Recording: the storage block is an array of 32-bit ints:
+//   [0] number of threads that started (atomic); the program's session clears it before the draw
+//   [1] words available per thread, written by the session before the draw
+//   [2] number of threads that there is room for, written by the session
+//   [3] reserved
+//   then per thread (in order of start) `words available` ints:
+//     [0] words that the thread wanted to write (may exceed what fits: then run again with more room)
+//     [1],[2] gl_FragCoord.x, .y as integers (floor)   [3] mark of this invocation: 1 = ran to its end,
+//     2 = ended in a discard, 0 = neither seen
+//     [4...] records: id (1-based index into `records`), then its words
+// The same invocation number (its order of start + 1) is written to attachment output 0, so that the visible
+// fragment among several on one pixel is known.
+inline constexpr int kRecordingHeader = 4;
+inline constexpr int kThreadHeader = 4;
+struct RecordingLayout {
+  std::string block;                    // name of the storage block
+  std::string pixel_uniform;            // ivec4: x, y (lower left) and width, height of the recorded pixels
+  std::vector<RecordLayout> records;    // record id - 1 -> layout
+  AttachmentLayout attachment;          // words = 2: the mark, then the invocation number ("invocation", uint)
+};
+
+struct Failure { std::string reason; };  // one sentence for the user
+
+struct AttachmentShader {
+  std::string text;
+  AttachmentLayout layout;
+};
+struct RecordingShader {
+  std::string text;
+  RecordingLayout layout;
+};
+template <class T> using Result = std::variant<T, Failure>;
+
+// ---- single: one probe, all threads ------------------------------------------------------------------------
+
+// A place in the run of a thread at which values are looked at.
+struct Probe {
+  enum class When { before, after } when = When::before;
+      // after: after the statement ran (expression, declaration), or after a condition was evaluated,
+      // for all threads that evaluate it (thesis: buffered condition)
+  frontend::StatementId statement = frontend::kNone;
+  std::vector<frontend::CallId> call_path;  // from main inwards; empty = any call (no function is cloned)
+  std::vector<int> iterations;              // 0-based, per enclosing loop of the whole call path, outermost
+                                            // first; may be shorter; loops without a number: the last time wins
+  std::vector<frontend::Watch> watches;
+  bool outcome = false;                     // with When::after on a condition: also capture its outcome ("")
+};
+
+// One probe whose words leave through attachments. `first` .. as many watches as fit are taken when
+// there are more than the draw buffers hold: `layout.fields` says which; ask again with the rest.
+Result<AttachmentShader> instrumentSingle(const frontend::Shader&, const Probe&, const Target&);
+
+// ---- recording: every step of chosen threads ---------------------------------------------------------------
+
+Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Target&);
+
+// ---- whole-thread measures ---------------------------------------------------------------------------------
+
+// Per loop of the shader three uint fields: "entries" (times entered), "iterations" (bodies begun, all entries
+// together), "longest" (bodies begun in the longest entry). Fields are named "<statement id>.entries", ...
+Result<AttachmentShader> instrumentLoops(const frontend::Shader&, const std::vector<frontend::StatementId>& loops,
+                                         const Target&);
+
+// One uint field "steps": statements and conditions executed. With `statements`, one uint field per statement
+// named by its id: how often it ran. (Ask in batches that fit the draw buffers.)
+Result<AttachmentShader> instrumentCount(const frontend::Shader&, const std::vector<frontend::StatementId>& statements,
+                                         const Target&);
+
+// Two uint fields "low", "high": shader clock ticks from start to end of the thread (GL_ARB_shader_clock).
+Result<AttachmentShader> instrumentClock(const frontend::Shader&, const Target&);
+
+// Every input of the fragment becomes a uniform of the same value for all fragments (thesis 7.2.1).
+struct IsolatedInput {
+  std::string input;      // "texcoord" or "gl_FragCoord", the watch to capture it by
+  std::string uniform;    // name of the uniform that replaces it
+  frontend::Type type;
+};
+struct IsolatedShader {
+  std::string text;             // the user's shader with inputs replaced; nothing is captured
+  std::string baseline_text;    // same inputs and outputs, empty main: what the draw costs without the shader
+  std::string vertex_text;      // a vertex shader that draws the whole target from gl_VertexID or attribute 0
+  std::vector<IsolatedInput> inputs;
+};
+Result<IsolatedShader> instrumentIsolate(const frontend::Shader&, const Target&);
+
+// A probe at the start of main that watches the inputs which instrumentIsolate replaces.
+Probe inputsProbe(const frontend::Shader&);
+
+// The user's tokens, emitted with nothing inserted: the round trip.
+std::string uninstrumented(const frontend::Shader&);
+
+// ---- decoding ----------------------------------------------------------------------------------------------
+
+// A decoded value: its type and its words in canonical order (frontend::components), bit for bit.
+struct Value {
+  frontend::Type type;
+  std::vector<std::uint32_t> words;
+  bool operator==(const Value&) const = default;
+};
+
+// `words`: the thread's words (layout.words of them), as read from the attachments (float attachments: the
+// floats' bits).
+Value decode(const AttachmentLayout&, const Field&, const std::uint32_t* words);
+// The mark word of a thread under any carrier.
+std::uint32_t decodeMark(const AttachmentLayout&, const std::uint32_t* words);
+
+struct Record {
+  int layout = 0;                     // index into RecordingLayout::records
+  std::vector<Value> values;          // one per field of that layout
+};
+struct ThreadRecording {
+  int x = 0, y = 0;
+  std::uint32_t invocation = 0;       // order of start + 1
+  bool discarded = false;
+  bool complete = false;              // false: not enough room; `wanted` says how many words were needed
+  std::uint32_t wanted = 0;
+  std::vector<Record> records;
+};
+struct Recording {
+  std::uint32_t started = 0;          // threads on the recorded pixels
+  std::vector<ThreadRecording> threads;
+  std::string error;                  // a stream that does not decode is an error, never half a result
+};
+Recording decodeRecording(const RecordingLayout&, const std::vector<std::uint32_t>& words);
+
+}  // namespace shadestep::instrumenter
