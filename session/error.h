@@ -1,0 +1,28 @@
+// How a request to the debugger can end, other than well: always with the sentence the user reads.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace shadestep::session {
+
+// The exit codes of the command line.
+enum class Outcome {
+  done = 0,
+  failed = 1,           // a check failed, or the program under debug did
+  usage = 2,
+  nothing_matches = 3,  // the selection fits nothing; the text says what there is
+  cannot_debug = 4,     // found, but not to be debugged; the text says why
+  ended = 5,            // the program ended or crashed before the selection; the text says where
+};
+
+class Error : public std::runtime_error {
+ public:
+  Error(Outcome outcome, const std::string& sentence) : std::runtime_error(sentence), outcome_(outcome) {}
+  Outcome outcome() const { return outcome_; }
+
+ private:
+  Outcome outcome_;
+};
+
+}  // namespace shadestep::session

@@ -1,0 +1,189 @@
+// One program under debug, from launch to end: select a draw, look at its shaders, run capture passes.
+// The debugger without a face: the command line and the window hold no debugging logic beyond this.
+//
+// Every function throws session::Error when it cannot do what it says; the program under debug is then still as
+// it was. Not thread safe: one thread drives one Session.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glsl-frontend/shader.h"
+#include "instrumenter/instrumenter.h"
+#include "session/error.h"
+
+namespace shadestep::session {
+
+using frontend::Stage;
+
+const char* stageName(Stage);  // "fragment", "tess-control", ... as the command line spells them
+std::optional<Stage> stageByName(const std::string&);
+
+struct LaunchOptions {
+  std::vector<std::string> command;     // program and arguments; found through PATH
+  std::string interceptor;              // libshadestep-gl.so; empty: beside or above this executable
+  bool program_output_to_stderr = false;  // keeps our own stdout clean for --json
+  std::chrono::seconds timeout{0};      // for the program to reach what is asked for; 0 = no limit
+};
+
+// Where the program stands: in a draw call that it has not carried out yet.
+struct DrawStop {
+  std::uint64_t frame = 0;
+  std::uint64_t draw = 0;
+  std::string call;
+  std::uint32_t mode = 0;   // GL primitive mode; 0xffffffff if none
+  std::int64_t count = -1;  // vertices or indices per instance; -1 = not known on the CPU
+  std::int64_t instances = 1;
+};
+
+struct StageFacts {
+  Stage stage = Stage::fragment;
+  std::vector<std::string> sources;
+  std::string reason;  // why it cannot be debugged; empty if it can
+};
+
+struct DrawFacts {
+  std::string provider;  // "GLX", "EGL", "OSMesa"
+  std::string version, renderer, vendor, glsl_version;
+  bool es = false, core = false;
+  int major = 0, minor = 0;
+  std::vector<std::string> extensions;
+  std::uint32_t program = 0;
+  std::string program_reason;  // why there is no program to debug; empty if there is
+  std::vector<StageFacts> stages;
+  std::uint32_t framebuffer = 0;
+  std::string target_reason;   // why this target cannot be captured; empty if it can
+  int viewport[4] = {0, 0, 0, 0};
+  int width = 0, height = 0;   // of the draw framebuffer
+  int draw_buffers = 1, max_draw_buffers = 8, max_storage_blocks = 0;
+
+  bool has(const std::string& extension) const;
+};
+
+// design point 9: the original outputs of an instrumented replay against the uninstrumented draw, bitwise.
+struct Check {
+  bool compared_at_all = false;
+  std::uint64_t compared = 0;   // components
+  std::uint64_t differing = 0;
+  std::string reason;           // why not compared
+  bool identical() const { return compared_at_all && differing == 0; }
+  // "identical", "differs", "not compared"
+  void merge(const Check& other);   // the check of two passes together
+};
+
+struct Uniform {
+  std::string name;
+  std::uint32_t gl_type = 0;         // GL_INT_VEC4, ...
+  std::vector<std::uint32_t> words;  // as glUniform*v takes them
+};
+std::uint32_t glUniformType(const frontend::Type&);  // 0 if it cannot be a plain uniform
+
+// A program prepared in the program under debug; released when it goes out of scope or the draw is left.
+class Session;
+class Prepared {
+ public:
+  Prepared() = default;
+  Prepared(Session* session, std::uint32_t handle) : session_(session), handle_(handle) {}
+  Prepared(Prepared&&) noexcept;
+  Prepared& operator=(Prepared&&) noexcept;
+  ~Prepared();
+  std::uint32_t handle() const { return handle_; }
+  std::chrono::nanoseconds compile_time{0};
+
+ private:
+  Session* session_ = nullptr;
+  std::uint32_t handle_ = 0;
+};
+
+struct ExecuteOptions {
+  std::vector<Uniform> uniforms;
+  std::vector<std::uint32_t> storage;   // first words of the storage buffer
+  std::uint64_t storage_words = 0;      // its size; the rest is zero
+  bool compare = true;
+  bool read_outputs = false;
+  bool read_captures = true;
+  int repeats = 1;
+  int covering_size = 64;               // with a Covering program
+};
+
+struct Execution {
+  int width = 0, height = 0;
+  std::vector<std::vector<std::uint32_t>> attachments;  // each width*height*4 words, rows bottom up
+  std::vector<std::vector<float>> outputs;              // each width*height*4, the program's own colour outputs
+  std::vector<std::uint32_t> storage;
+  std::vector<std::chrono::nanoseconds> times;          // one per repeat: draw + glFinish on the CPU's clock
+  Check check;
+};
+
+// The words of all threads of a capture, one block of `words` per pixel.
+struct ThreadWords {
+  int width = 0, height = 0, words = 0;
+  std::vector<std::uint32_t> data;
+  const std::uint32_t* at(int x, int y) const {
+    return data.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                          static_cast<std::size_t>(x)) * static_cast<std::size_t>(words);
+  }
+};
+struct Captured {
+  ThreadWords threads;
+  instrumenter::AttachmentLayout layout;
+  Execution execution;   // its attachments are moved into `threads`
+};
+
+class Session {
+ public:
+  explicit Session(const LaunchOptions&);  // launches and waits for the first sign of the interceptor
+  ~Session();                              // ends the program if it still runs
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Runs to the first draw at or after (frame, draw) that is in that very frame.
+  // Throws nothing_matches if the frame has fewer draws, ended if the program stops before.
+  DrawStop runTo(std::uint64_t frame, std::uint64_t draw);
+  // Visits every draw of frames first..last; `visit` may describe and capture. Returns draws per frame.
+  std::vector<std::uint64_t> forEachDraw(std::uint64_t first, std::uint64_t last,
+                                         const std::function<void(const DrawStop&)>& visit);
+  // Runs on to the program's own end, returns its exit status as a shell gives it (128 + signal).
+  int runToEnd();
+  // Ends the program now.
+  void quit();
+
+  const DrawStop& stop() const;
+  const DrawFacts& facts();                  // of the current stop; asked once
+  // The analysed shader of a stage. Throws cannot_debug with the reason, nothing_matches if there is no such stage.
+  const frontend::Shader& shader(Stage);
+  instrumenter::Target target();             // what the driver offers to instrumented fragment shaders
+
+  // ---- capture passes at the current stop ----
+  Prepared prepare(const instrumenter::AttachmentShader&);
+  Prepared prepare(const instrumenter::RecordingShader&);
+  Prepared prepareOriginal();                                      // the program's own text
+  Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);   // isolate
+  Execution execute(const Prepared&, const ExecuteOptions& = {});
+  // prepare + execute + join the attachments per pixel.
+  Captured capture(const instrumenter::AttachmentShader&, const ExecuteOptions& = {});
+  // All threads of a rectangle of pixels (lower left corner, size), with as much room as they need.
+  struct Recorded {
+    instrumenter::Recording recording;
+    instrumenter::RecordingLayout layout;
+    Execution execution;
+    ThreadWords visible;    // of execution's attachment: mark, invocation
+  };
+  Recorded record(int x, int y, int width, int height);
+
+  void release(std::uint32_t handle) noexcept;   // by ~Prepared
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Joins attachments of 4 words a pixel into one block of `words` a pixel.
+ThreadWords joinAttachments(const Execution&, int words);
+
+}  // namespace shadestep::session
