@@ -1,0 +1,25 @@
+// Statistics of measured costs.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace shadestep::profiler {
+
+// The quantile p (0..1) by linear interpolation between order statistics (type 7 of Hyndman and Fan 1996).
+// NaN for no values.
+double quantile(std::vector<double> values, double p);
+double median(std::vector<double> values);
+
+// How much repeated measurements of one quantity differ: (third - first quartile) / median. 0 if the median
+// is 0.
+double relativeSpread(std::vector<double> repeats);
+
+// Ranks 1..n in the order of the values; equal values share the mean of their ranks.
+std::vector<double> meanRanks(std::span<const double> values);
+
+// Spearman's rank correlation: Pearson's of the mean ranks, so ties are accounted for. NaN where it is not
+// defined: fewer than two pairs, or all values of one side equal. The spans have the same size.
+double spearman(std::span<const double> a, std::span<const double> b);
+
+}  // namespace shadestep::profiler
