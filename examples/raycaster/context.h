@@ -1,0 +1,26 @@
+// An OpenGL context of the kind that the user asks for, current on the calling thread while it lives.
+#pragma once
+
+#include <memory>
+
+#include "gl.h"
+
+namespace raycaster {
+
+enum class ContextKind { osmesa, glx, egl };
+enum class Profile { compatibility, core };  // core: 3.3
+
+class Context {
+ public:
+  virtual ~Context() = default;
+  virtual AnyFunction address(const char* function) const = 0;  // GetProcAddress
+  virtual void present() = 0;                                   // ends a frame: swaps, or waits for OSMesa
+};
+
+// Each throws std::runtime_error with a sentence that says what to do.
+std::unique_ptr<Context> createOsmesaContext(Profile, int width, int height);  // memory only
+std::unique_ptr<Context> createGlxContext(Profile, int width, int height);     // a window on $DISPLAY
+std::unique_ptr<Context> createEglContext(Profile, int width, int height);     // a pbuffer, no X needed
+std::unique_ptr<Context> createContext(ContextKind, Profile, int width, int height);
+
+}  // namespace raycaster

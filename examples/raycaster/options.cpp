@@ -1,0 +1,94 @@
+#include "options.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+
+#include "image_file.h"
+#include "transfer_function.h"
+
+namespace raycaster {
+namespace {
+
+// A finite number from low to high; CLI11's own Range lets NaN through.
+CLI::Validator number(double low, double high) {
+  const auto check = [low, high](const std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return good ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
+  };
+  return CLI::Validator(check, fmt::format("NUMBER in [{} - {}]", low, high));
+}
+
+// An option whose value is one of a few names.
+template <class Value>
+void addChoice(CLI::App& app, const std::string& name, Value& value,
+               const std::map<std::string, Value>& choices, const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  app.add_option_function<std::string>(
+         name, [&value, choices](const std::string& chosen) { value = choices.at(chosen); }, help)
+      ->check(CLI::IsMember(names));
+}
+
+}  // namespace
+
+CommandLine parse(int argc, const char* const* argv) {
+  CommandLine line;
+  Options& options = line.options;
+  CLI::App app(
+      "Draws a volume by single-pass ray casting. Knows nothing of the debugger that it is shown with.",
+      "raycaster");
+  addChoice<ContextKind>(
+      app, "--context", options.context,
+      {{"osmesa", ContextKind::osmesa}, {"glx", ContextKind::glx}, {"egl", ContextKind::egl}},
+      "where to draw (osmesa)");
+  addChoice<Glsl>(app, "--glsl", options.glsl, {{"120", Glsl::v120}, {"330", Glsl::v330}},
+                  "shading language: 120 in a compatibility context, 330 in a core one (330)");
+  addChoice<Classification>(
+      app, "--classification", options.classification,
+      {{"post", Classification::post}, {"preintegrated", Classification::preintegrated}},
+      "how scalars become colours (preintegrated)");
+  app.add_option("--volume", options.volume, "c60: a buckyball; cube: the same scalar everywhere")
+      ->check(CLI::IsMember({"c60", "cube"}))
+      ->capture_default_str();
+  app.add_option("--transfer", options.transfer, "transfer function")
+      ->check(CLI::IsMember(TransferFunction::presets()))
+      ->capture_default_str();
+  app.add_option("--size", options.size, "width and height in pixels")
+      ->check(CLI::Range(1, 8192))
+      ->capture_default_str();
+  app.add_option("--step", options.step, "distance of samples; the volume's edge is 1")
+      ->check(number(1e-6, 1.0))
+      ->capture_default_str();
+  app.add_option("--ert", options.opacityLimit, "a ray ends at this opacity; 0: never early")
+      ->check(number(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--yaw", options.orbit.yaw, "the camera's orbit, degrees")->check(number(-360.0, 360.0));
+  app.add_option("--pitch", options.orbit.pitch, "degrees")->check(number(-90.0, 90.0));
+  app.add_option("--distance", options.orbit.distance, "from the volume's centre, in edges")
+      ->check(number(0.0, 100.0))
+      ->capture_default_str();
+  app.add_option("--turn", options.turn, "degrees of yaw from one frame to the next")
+      ->check(number(-360.0, 360.0));
+  app.add_option("--frames", options.frames, "how many to draw")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  app.add_option("--out", options.out,
+                 "the last frame as .png, .exr (float) or .raw (RGBA floats, bottom row first)")
+      ->check([](const std::string& path) {
+        return canWrite(path) ? std::string() : "'" + path + "' must end in .png, .exr or .raw";
+      });
+  try {
+    app.parse(argc, argv);
+    line.parsed = true;
+  } catch (const CLI::CallForHelp& help) {
+    line.exit = app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "raycaster: " << error.what() << "; see raycaster --help\n";
+  }
+  return line;
+}
+
+}  // namespace raycaster

@@ -1,0 +1,35 @@
+// The command line of the ray caster.
+#pragma once
+
+#include <string>
+
+#include "camera.h"
+#include "context.h"
+#include "shaders.h"
+
+namespace raycaster {
+
+struct Options {
+  ContextKind context = ContextKind::osmesa;
+  Glsl glsl = Glsl::v330;
+  Classification classification = Classification::preintegrated;
+  std::string volume = "c60";
+  std::string transfer = "shells";
+  int size = 512;              // image, pixels an edge
+  double step = 1.0 / 256;     // object space; the volume's edge is 1
+  double opacityLimit = 0.95;  // 0 = off
+  Orbit orbit;
+  double turn = 0;  // degrees of yaw from frame to frame
+  int frames = 1;
+  std::string out;  // "" = no file
+};
+
+// Parsed is false when the program should end with `exit` at once (--help, or an error already printed).
+struct CommandLine {
+  bool parsed = false;
+  int exit = 2;
+  Options options;
+};
+CommandLine parse(int argc, const char* const* argv);
+
+}  // namespace raycaster
