@@ -1,0 +1,29 @@
+// The exported dlsym. libc's own finds out by its return address who is asking (RTLD_NEXT depends on it), so what
+// is not ours to answer is passed on by a jump, with the caller's return address still on the stack.
+        .text
+        .globl  dlsym
+        .type   dlsym, @function
+dlsym:
+        .cfi_startproc
+        endbr64
+        pushq   %rdi
+        .cfi_adjust_cfa_offset 8
+        pushq   %rsi
+        .cfi_adjust_cfa_offset 8
+        subq    $8, %rsp                # calls are made with the stack on 16 bytes
+        .cfi_adjust_cfa_offset 8
+        movq    24(%rsp), %rdx          # the caller
+        call    shadestepLookup
+        addq    $8, %rsp
+        .cfi_adjust_cfa_offset -8
+        popq    %rsi
+        .cfi_adjust_cfa_offset -8
+        popq    %rdi
+        .cfi_adjust_cfa_offset -8
+        testq   %rdx, %rdx              # answered?
+        jz      1f
+        ret
+1:      jmp     *%rax                   # libc's
+        .cfi_endproc
+        .size   dlsym, .-dlsym
+        .section .note.GNU-stack, "", @progbits
