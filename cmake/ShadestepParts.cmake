@@ -15,7 +15,7 @@ set(SHADESTEP_ALLOWED_debugger-gui profiler session instrumenter glsl-frontend)
 add_library(shadestep_warnings INTERFACE)
 target_compile_options(shadestep_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align
-  -Wunused -Woverloaded-virtual -Wnull-dereference -Wdouble-promotion -Wimplicit-fallthrough)
+  -Wunused -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough)
 
 # shadestep_check_uses(PART USES...): stops the configuration when PART may not know one of USES.
 function(shadestep_check_uses part)

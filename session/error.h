@@ -9,7 +9,7 @@ namespace shadestep::session {
 // The exit codes of the command line.
 enum class Outcome {
   done = 0,
-  failed = 1,           // a check failed, or the program under debug did
+  failed = 1,  // a check failed, or the program under debug did
   usage = 2,
   nothing_matches = 3,  // the selection fits nothing; the text says what there is
   cannot_debug = 4,     // found, but not to be debugged; the text says why

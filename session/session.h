@@ -1,8 +1,8 @@
 // One program under debug, from launch to end: select a draw, look at its shaders, run capture passes.
 // The debugger without a face: the command line and the window hold no debugging logic beyond this.
 //
-// Every function throws session::Error when it cannot do what it says; the program under debug is then still as
-// it was. Not thread safe: one thread drives one Session.
+// Every function throws session::Error when it cannot do what it says; the program under debug is then still
+// as it was. Not thread safe: one thread drives one Session.
 #pragma once
 
 #include <chrono>
@@ -25,10 +25,10 @@ const char* stageName(Stage);  // "fragment", "tess-control", ... as the command
 std::optional<Stage> stageByName(const std::string&);
 
 struct LaunchOptions {
-  std::vector<std::string> command;     // program and arguments; found through PATH
-  std::string interceptor;              // libshadestep-gl.so; empty: beside or above this executable
+  std::vector<std::string> command;       // program and arguments; found through PATH
+  std::string interceptor;                // libshadestep-gl.so; empty: beside or above this executable
   bool program_output_to_stderr = false;  // keeps our own stdout clean for --json
-  std::chrono::seconds timeout{0};      // for the program to reach what is asked for; 0 = no limit
+  std::chrono::seconds timeout{0};        // for the program to reach what is asked for; 0 = no limit
 };
 
 // Where the program stands: in a draw call that it has not carried out yet.
@@ -57,9 +57,9 @@ struct DrawFacts {
   std::string program_reason;  // why there is no program to debug; empty if there is
   std::vector<StageFacts> stages;
   std::uint32_t framebuffer = 0;
-  std::string target_reason;   // why this target cannot be captured; empty if it can
+  std::string target_reason;  // why this target cannot be captured; empty if it can
   int viewport[4] = {0, 0, 0, 0};
-  int width = 0, height = 0;   // of the draw framebuffer
+  int width = 0, height = 0;  // of the draw framebuffer
   int draw_buffers = 1, max_draw_buffers = 8, max_storage_blocks = 0;
 
   bool has(const std::string& extension) const;
@@ -68,12 +68,12 @@ struct DrawFacts {
 // design point 9: the original outputs of an instrumented replay against the uninstrumented draw, bitwise.
 struct Check {
   bool compared_at_all = false;
-  std::uint64_t compared = 0;   // components
+  std::uint64_t compared = 0;  // components
   std::uint64_t differing = 0;
-  std::string reason;           // why not compared
+  std::string reason;  // why not compared
   bool identical() const { return compared_at_all && differing == 0; }
   // "identical", "differs", "not compared"
-  void merge(const Check& other);   // the check of two passes together
+  void merge(const Check& other);  // the check of two passes together
 };
 
 struct Uniform {
@@ -102,21 +102,21 @@ class Prepared {
 
 struct ExecuteOptions {
   std::vector<Uniform> uniforms;
-  std::vector<std::uint32_t> storage;   // first words of the storage buffer
-  std::uint64_t storage_words = 0;      // its size; the rest is zero
+  std::vector<std::uint32_t> storage;  // first words of the storage buffer
+  std::uint64_t storage_words = 0;     // its size; the rest is zero
   bool compare = true;
   bool read_outputs = false;
   bool read_captures = true;
   int repeats = 1;
-  int covering_size = 64;               // with a Covering program
+  int covering_size = 64;  // with a Covering program
 };
 
 struct Execution {
   int width = 0, height = 0;
   std::vector<std::vector<std::uint32_t>> attachments;  // each width*height*4 words, rows bottom up
-  std::vector<std::vector<float>> outputs;              // each width*height*4, the program's own colour outputs
+  std::vector<std::vector<float>> outputs;  // each width*height*4, the program's own colour outputs
   std::vector<std::uint32_t> storage;
-  std::vector<std::chrono::nanoseconds> times;          // one per repeat: draw + glFinish on the CPU's clock
+  std::vector<std::chrono::nanoseconds> times;  // one per repeat: draw + glFinish on the CPU's clock
   Check check;
 };
 
@@ -125,14 +125,20 @@ struct ThreadWords {
   int width = 0, height = 0, words = 0;
   std::vector<std::uint32_t> data;
   const std::uint32_t* at(int x, int y) const {
-    return data.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                          static_cast<std::size_t>(x)) * static_cast<std::size_t>(words);
+    return data.data() +
+           (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(words);
   }
 };
 struct Captured {
   ThreadWords threads;
   instrumenter::AttachmentLayout layout;
-  Execution execution;   // its attachments are moved into `threads`
+  Execution execution;  // its attachments are moved into `threads`
+};
+
+struct Progress {
+  std::uint64_t frames = 0;
+  std::uint64_t draws = 0;
 };
 
 class Session {
@@ -152,18 +158,24 @@ class Session {
   int runToEnd();
   // Ends the program now.
   void quit();
+  // Frames ended and draws begun so far, over the whole run.
+  Progress progress();
 
   const DrawStop& stop() const;
-  const DrawFacts& facts();                  // of the current stop; asked once
-  // The analysed shader of a stage. Throws cannot_debug with the reason, nothing_matches if there is no such stage.
+  const DrawFacts& facts();  // of the current stop; asked once
+  // The analysed shader of a stage. Throws cannot_debug with the reason, nothing_matches if there is no such
+  // stage.
   const frontend::Shader& shader(Stage);
-  instrumenter::Target target();             // what the driver offers to instrumented fragment shaders
+  instrumenter::Target target();  // what the driver offers to instrumented fragment shaders
+
+  // Throws cannot_debug, with the reason, if captures of the fragment shader cannot work at this draw.
+  void requireCapturable();
 
   // ---- capture passes at the current stop ----
   Prepared prepare(const instrumenter::AttachmentShader&);
   Prepared prepare(const instrumenter::RecordingShader&);
-  Prepared prepareOriginal();                                      // the program's own text
-  Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);   // isolate
+  Prepared prepareOriginal();  // the program's own text
+  Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);  // isolate
   Execution execute(const Prepared&, const ExecuteOptions& = {});
   // prepare + execute + join the attachments per pixel.
   Captured capture(const instrumenter::AttachmentShader&, const ExecuteOptions& = {});
@@ -172,11 +184,11 @@ class Session {
     instrumenter::Recording recording;
     instrumenter::RecordingLayout layout;
     Execution execution;
-    ThreadWords visible;    // of execution's attachment: mark, invocation
+    ThreadWords visible;  // of execution's attachment: mark, invocation
   };
   Recorded record(int x, int y, int width, int height);
 
-  void release(std::uint32_t handle) noexcept;   // by ~Prepared
+  void release(std::uint32_t handle) noexcept;  // by ~Prepared
 
  private:
   struct State;

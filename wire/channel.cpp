@@ -43,7 +43,8 @@ sockaddr_un abstractAddress(const std::string& name, socklen_t& length) {
 bool sameUser(int socket) {
   ucred credentials{};
   socklen_t length = sizeof credentials;
-  return getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &credentials, &length) == 0 && credentials.uid == geteuid();
+  return getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &credentials, &length) == 0 &&
+         credentials.uid == geteuid();
 }
 
 // True when `fd` has something to read (or hung up) within the time.
@@ -211,7 +212,8 @@ std::optional<Listener> Listener::create() {
   if (!listener.socket_) return std::nullopt;
   socklen_t length = 0;
   const sockaddr_un address = abstractAddress(listener.name_, length);
-  if (bind(listener.socket_.get(), reinterpret_cast<const sockaddr*>(&address), length) != 0) return std::nullopt;
+  if (bind(listener.socket_.get(), reinterpret_cast<const sockaddr*>(&address), length) != 0)
+    return std::nullopt;
   if (listen(listener.socket_.get(), 16) != 0) return std::nullopt;
   return listener;
 }
@@ -243,7 +245,9 @@ SharedMemory SharedMemory::map(Descriptor fd) {
 }
 
 SharedMemory::SharedMemory(SharedMemory&& other) noexcept
-    : fd_(std::move(other.fd_)), data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    : fd_(std::move(other.fd_)),
+      data_(std::exchange(other.data_, nullptr)),
+      size_(std::exchange(other.size_, 0)) {}
 
 SharedMemory& SharedMemory::operator=(SharedMemory&& other) noexcept {
   if (this != &other) {

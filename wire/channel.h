@@ -87,8 +87,8 @@ class Listener {
 class SharedMemory {
  public:
   SharedMemory() = default;
-  static SharedMemory create(const char* label, std::size_t bytes);   // empty on failure
-  static SharedMemory map(Descriptor fd);                             // whole file; empty on failure
+  static SharedMemory create(const char* label, std::size_t bytes);  // empty on failure
+  static SharedMemory map(Descriptor fd);                            // whole file; empty on failure
   SharedMemory(SharedMemory&&) noexcept;
   SharedMemory& operator=(SharedMemory&&) noexcept;
   ~SharedMemory();

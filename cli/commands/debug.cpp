@@ -1,0 +1,65 @@
+// shadestep debug: one thread's whole run (--pixel), or the values at one place for all threads (--at).
+#include "cli/commands/debug.h"
+
+namespace shadestep::cli {
+namespace {
+
+int run(const Common& common, const DebugOptions& options) {
+  if (options.at.empty() && options.pixel.empty()) {
+    throw session::Error(session::Outcome::usage,
+                         "say which thread with --pixel X,Y, or which place with --at LINE --print NAMES");
+  }
+  if (options.at.empty() && !(options.print.empty() && options.image.empty() && options.iteration.empty())) {
+    throw session::Error(session::Outcome::usage, "--print, --image and --iteration go with --at LINE");
+  }
+  session::Session session(common.launchOptions());
+  runToSelection(session, common);
+  session.requireCapturable();
+  const int outcome =
+      options.at.empty() ? debugThread(session, common, options) : debugValues(session, common, options);
+  if (!options.let_run) return outcome;
+  const int status = session.runToEnd();
+  return outcome != 0 ? outcome : status;
+}
+
+}  // namespace
+
+void addDebug(CLI::App& app, Common& common, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("debug", "one thread's whole run, or the values at a place for all threads");
+  auto options = std::make_shared<DebugOptions>();
+  addCommonOptions(*command, common);
+  addSelectionOptions(*command, common);
+  command->add_option("--pixel", options->pixel, "the fragment on this pixel, from the lower left")
+      ->type_name("X,Y");
+  command
+      ->add_option("--hit", options->hit,
+                   "which fragment, if the draw has several on the pixel; default the visible one")
+      ->type_name("N");
+  command->add_option("--at", options->at, "a place in the source: before the statement there")
+      ->type_name("LINE[:COL]");
+  command->add_flag("--after", options->after,
+                    "after the statement at --at (a condition: after it was evaluated)");
+  command
+      ->add_option("--iteration", options->iteration,
+                   "0-based iteration per enclosing loop, outermost first; default the last")
+      ->type_name("I[,J...]");
+  command->add_option("--call", options->call, "lines of the calls that lead to the place, outermost first")
+      ->type_name("LINE[,LINE...]");
+  command->add_option("--print", options->print, "variables, or parts of them, with commas between")
+      ->type_name("A,B");
+  command
+      ->add_option("--image", options->image,
+                   "the first printed value over all threads, as a picture or exactly")
+      ->type_name("F.png|F.exr");
+  command
+      ->add_option("--csv", options->csv,
+                   "the printed values, a row per thread (with --pixel alone: a row per step)")
+      ->type_name("F");
+  command->add_flag("--continue", options->let_run,
+                    "then let the program run to its own end; default is to end it");
+  command->callback(
+      [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });
+}
+
+}  // namespace shadestep::cli

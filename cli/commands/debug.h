@@ -1,0 +1,31 @@
+// What the two forms of `shadestep debug` share: one thread's whole run, or one place for all threads.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/common.h"
+#include "session/thread_values.h"
+
+namespace shadestep::cli {
+
+struct DebugOptions {
+  std::string pixel;
+  int hit = -1;
+  std::string at;
+  std::string iteration;
+  std::string call;
+  std::string print;
+  bool after = false;
+  std::string image;
+  std::string csv;
+  bool let_run = false;
+};
+
+// The whole run of the thread on --pixel.
+int debugThread(session::Session&, const Common&, const DebugOptions&);
+// Values at --at over all threads.
+int debugValues(session::Session&, const Common&, const DebugOptions&);
+
+}  // namespace shadestep::cli

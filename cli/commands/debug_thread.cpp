@@ -1,0 +1,166 @@
+// The whole run of one thread, as a person reads it, as JSON, and as CSV.
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+#include "cli/commands/debug.h"
+#include "profiler/pictures/files.h"
+#include "session/thread_run.h"
+#include "session/values.h"
+
+namespace shadestep::cli {
+namespace {
+
+using frontend::Shader;
+using session::Step;
+using session::ThreadRun;
+
+std::string joined(const std::vector<int>& numbers) {
+  std::string text;
+  for (const int number : numbers) text += (text.empty() ? "" : ",") + std::to_string(number);
+  return text;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+// The user's own line.
+std::string sourceOf(const Shader& shader, int line) {
+  if (line < 1 || static_cast<std::size_t>(line) > shader.lines.size()) return {};
+  return trimmed(shader.lines[static_cast<std::size_t>(line) - 1]);
+}
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() > width) text = text.substr(0, width - 3) + "...";
+  text.resize(width, ' ');
+  return text;
+}
+
+std::string whatHappened(const Step& step) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "  ") + part; };
+  if (!step.outcome.empty()) add("-> " + step.outcome);
+  if (step.kind == Step::Kind::call) add("(calls)");
+  if (step.kind == Step::Kind::leave) add("(returns)");
+  for (const session::NamedValue& changed : step.changed) {
+    add(changed.name + " = " + session::formatValue(changed.value));
+  }
+  return text;
+}
+
+std::string summary(const ThreadRun& run) {
+  std::string text = run.discarded ? "ended in a discard" : "ran to its end";
+  if (run.hits > 1) {
+    text += "; fragment " + std::to_string(run.hit) + " of " + std::to_string(run.hits) +
+            " on the pixel (--hit)" + (run.visible ? ", the visible one" : ", hidden");
+  } else if (!run.visible && !run.discarded) {
+    text += "; hidden by the fragment tests";
+  }
+  return text;
+}
+
+std::string asText(const Shader& shader, const session::DrawStop& stop, const session::DrawFacts& facts,
+                   const ThreadRun& run) {
+  std::ostringstream text;
+  text << "pixel " << run.x << "," << run.y << "  fragment shader of program " << facts.program << "  frame "
+       << stop.frame << ", draw " << stop.draw << " (" << stop.call << ")\n"
+       << facts.renderer << "  GLSL " << shader.version << "\n"
+       << withThousands(run.steps.size()) << " steps, " << summary(run) << "\n"
+       << describe(run.check) << "\n\n"
+       << "  step  line  iteration  " << padded("source", 56) << "  what changed\n";
+  std::size_t number = 0;
+  for (const Step& step : run.steps) {
+    const std::string indent(static_cast<std::size_t>(step.depth) * 2, ' ');
+    std::string source = sourceOf(shader, step.line);
+    if (step.kind == Step::Kind::enter) source = "> " + source;
+    text << padded(std::string(6 - std::min<std::size_t>(6, std::to_string(number).size()), ' ') +
+                       std::to_string(number),
+                   6)
+         << padded("  " + std::string(4 - std::min<std::size_t>(4, std::to_string(step.line).size()), ' ') +
+                       std::to_string(step.line),
+                   8)
+         << padded(joined(step.iteration), 9) << "  " << padded(indent + source, 56);
+    const std::string happened = whatHappened(step);
+    if (!happened.empty()) text << "  " << happened;
+    text << "\n";
+    ++number;
+  }
+  text << "\n";
+  for (std::size_t i = 0; i < run.outputs.size(); ++i) {
+    text << "colour output " << i << " at this pixel after the draw: (";
+    for (std::size_t c = 0; c < 4; ++c)
+      text << (c == 0 ? "" : ", ") << profiler::exactText(run.outputs[i][c]);
+    text << ")\n";
+  }
+  return text.str();
+}
+
+Json asJson(const ThreadRun& run) {
+  Json document;
+  document["thread"] = {{"stage", "fragment"}, {"x", run.x},       {"y", run.y},
+                        {"hit", run.hit},      {"hits", run.hits}, {"visible", run.visible}};
+  Json steps = Json::array();
+  for (const Step& step : run.steps) {
+    Json one;
+    one["line"] = step.line;
+    one["column"] = step.column;
+    one["function"] = step.function;
+    one["kind"] = session::kindName(step.kind);
+    one["depth"] = step.depth;
+    one["iteration"] = step.iteration;
+    if (!step.outcome.empty()) one["outcome"] = step.outcome;
+    Json changed = Json::object();
+    for (const session::NamedValue& value : step.changed) {
+      changed[value.name] = {{"type", glslName(value.value.type)}, {"value", toJson(value.value)}};
+    }
+    one["changed"] = std::move(changed);
+    steps.push_back(std::move(one));
+  }
+  document["steps"] = std::move(steps);
+  document["outcome"] = run.discarded ? "discarded" : "finished";
+  Json outputs = Json::array();
+  for (const auto& output : run.outputs) {
+    Json components = Json::array();
+    for (const float value : output) components.push_back(number(session::shortestDouble(value)));
+    outputs.push_back(std::move(components));
+  }
+  document["outputs"] = std::move(outputs);
+  document["check"] = toJson(run.check);
+  return document;
+}
+
+std::string asCsv(const ThreadRun& run) {
+  std::string csv = "step,line,column,function,iteration,name,type,value\n";
+  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+    const Step& step = run.steps[i];
+    const std::string head = std::to_string(i) + "," + std::to_string(step.line) + "," +
+                             std::to_string(step.column) + "," + step.function + ",\"" +
+                             joined(step.iteration) + "\",";
+    if (!step.outcome.empty()) csv += head + "condition,bool," + step.outcome + "\n";
+    if (step.outcome.empty() && step.changed.empty()) csv += head + ",,\n";
+    for (const session::NamedValue& value : step.changed) {
+      csv += head + value.name + "," + glslName(value.value.type) + ",\"" +
+             session::formatValue(value.value) + "\"\n";
+    }
+  }
+  return csv;
+}
+
+}  // namespace
+
+int debugThread(session::Session& session, const Common& common, const DebugOptions& options) {
+  const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
+  const ThreadRun run = session::followPixel(session, pixel[0], pixel[1], options.hit);
+  if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(run));
+  if (common.json) {
+    print(asJson(run));
+  } else {
+    std::cout << asText(session.shader(session::Stage::fragment), session.stop(), session.facts(), run);
+  }
+  return run.check.compared_at_all && !run.check.identical() ? static_cast<int>(session::Outcome::failed) : 0;
+}
+
+}  // namespace shadestep::cli

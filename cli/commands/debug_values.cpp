@@ -1,0 +1,213 @@
+// The values of chosen variables at one place, for all threads of the draw.
+#include <iostream>
+
+#include "cli/commands/debug.h"
+#include "profiler/pictures/files.h"
+#include "profiler/pictures/value_image.h"
+#include "session/values.h"
+
+namespace shadestep::cli {
+namespace {
+
+using session::ThreadValues;
+using session::WatchedValues;
+
+session::PlaceSelection placeOf(const DebugOptions& options) {
+  session::PlaceSelection place;
+  std::string at = options.at;
+  if (const auto colon = at.find(':'); colon != std::string::npos) at[colon] = ',';
+  const std::vector<int> numbers = parseIntegers(at, "--at", 1, 2);
+  place.line = numbers[0];
+  place.column = numbers.size() > 1 ? numbers[1] : 0;
+  if (place.line < 1 || place.column < 0) {
+    throw session::Error(session::Outcome::usage,
+                         "--at takes LINE or LINE:COL, counted from 1, not '" + options.at + "'");
+  }
+  if (!options.iteration.empty()) place.iteration = parseIntegers(options.iteration, "--iteration", 1, 64);
+  for (const int iteration : place.iteration) {
+    if (iteration < 0)
+      throw session::Error(session::Outcome::usage,
+                           "--iteration counts from 0, not '" + options.iteration + "'");
+  }
+  if (!options.call.empty()) place.call_lines = parseIntegers(options.call, "--call", 1, 64);
+  place.after = options.after;
+  return place;
+}
+
+Json asJson(const ThreadValues& threads, const std::optional<std::size_t>& pixel) {
+  Json document;
+  document["threads"] = {{"launched", threads.launched}, {"reached", threads.reached}};
+  document["width"] = threads.width;
+  document["height"] = threads.height;
+  Json values = Json::object();
+  for (const WatchedValues& watched : threads.values) {
+    const auto statistics = session::statistics(threads, watched);
+    Json one;
+    one["type"] = glslName(watched.type);
+    std::uint64_t nan = 0;
+    std::uint64_t inf = 0;
+    const auto list = [&](auto member) {
+      Json json = Json::array();
+      for (const auto& component : statistics) {
+        json.push_back(component.finite == 0 ? Json(nullptr) : number(component.*member));
+      }
+      return json.size() == 1 ? json[0] : json;
+    };
+    one["min"] = list(&session::ComponentStatistics::min);
+    one["max"] = list(&session::ComponentStatistics::max);
+    one["mean"] = list(&session::ComponentStatistics::mean);
+    for (const auto& component : statistics) {
+      nan += component.nan;
+      inf += component.inf;
+    }
+    one["nan"] = nan;
+    one["inf"] = inf;
+    if (pixel) one["at_pixel"] = threads.reachedAt(*pixel) ? toJson(watched.valueAt(*pixel)) : Json(nullptr);
+    values[watched.name] = std::move(one);
+  }
+  document["values"] = std::move(values);
+  document["check"] = toJson(threads.check);
+  return document;
+}
+
+void printText(const ThreadValues& threads, const DebugOptions& options,
+               const std::optional<std::size_t>& pixel) {
+  std::cout << (options.after ? "after" : "before") << " line " << options.at;
+  if (!options.iteration.empty()) std::cout << ", iteration " << options.iteration;
+  std::cout << ": " << withThousands(threads.reached) << " of " << withThousands(threads.launched)
+            << " threads get there\n"
+            << describe(threads.check) << "\n";
+  for (const WatchedValues& watched : threads.values) {
+    std::cout << "\n" << watched.name << " (" << glslName(watched.type) << ")\n";
+    for (const auto& component : session::statistics(threads, watched)) {
+      std::cout << "  " << (component.access.empty() ? "value" : component.access);
+      if (component.finite > 0) {
+        std::cout << "  min " << profiler::exactText(component.min) << "  max "
+                  << profiler::exactText(component.max) << "  mean " << component.mean;
+      } else {
+        std::cout << "  no finite value";
+      }
+      if (component.nan > 0) std::cout << "  NaN in " << withThousands(component.nan) << " threads";
+      if (component.inf > 0) std::cout << "  infinite in " << withThousands(component.inf) << " threads";
+      std::cout << "\n";
+    }
+    if (pixel) {
+      std::cout << "  at pixel " << options.pixel << ": "
+                << (threads.reachedAt(*pixel) ? session::formatValue(watched.valueAt(*pixel))
+                                              : "does not get there")
+                << "\n";
+    }
+  }
+}
+
+std::string asCsv(const ThreadValues& threads) {
+  std::string csv = "x,y";
+  for (const WatchedValues& watched : threads.values) {
+    for (const auto& component : frontend::components(watched.type))
+      csv += "," + watched.name + component.access;
+  }
+  csv += "\n";
+  for (int y = 0; y < threads.height; ++y) {
+    for (int x = 0; x < threads.width; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(threads.width) + static_cast<std::size_t>(x);
+      if (!threads.reachedAt(pixel)) continue;
+      csv += std::to_string(x) + "," + std::to_string(y);
+      for (const WatchedValues& watched : threads.values) {
+        const std::uint32_t* word = watched.at(pixel);
+        for (const auto& component : frontend::components(watched.type)) {
+          csv += "," + session::formatComponent(component.basic, word);
+          word += session::wordsPerComponent(component.basic);
+        }
+      }
+      csv += "\n";
+    }
+  }
+  return csv;
+}
+
+profiler::ValueImage asImage(const ThreadValues& threads, const WatchedValues& watched) {
+  const auto components = frontend::components(watched.type);
+  if (components.size() > 4) {
+    throw session::Error(session::Outcome::usage,
+                         "'" + watched.name + "' has " + std::to_string(components.size()) +
+                             " components; --image shows at most 4: print a part of it");
+  }
+  profiler::ValueImage image;
+  image.width = threads.width;
+  image.height = threads.height;
+  for (const std::uint8_t mark : threads.marks) {
+    image.state.push_back((mark & instrumenter::kReached) != 0 ? profiler::ThreadState::reached
+                          : mark != 0                          ? profiler::ThreadState::not_reached
+                                                               : profiler::ThreadState::none);
+  }
+  std::size_t word = 0;
+  for (const auto& component : components) {
+    std::vector<double> plane(threads.marks.size(), 0.0);
+    for (std::size_t p = 0; p < plane.size(); ++p) {
+      if (threads.reachedAt(p)) plane[p] = session::componentAsDouble(component.basic, watched.at(p) + word);
+    }
+    image.components.push_back(std::move(plane));
+    word += static_cast<std::size_t>(session::wordsPerComponent(component.basic));
+  }
+  return image;
+}
+
+void writeImage(const std::string& path, const ThreadValues& threads, const DebugOptions& options) {
+  if (threads.values.empty()) throw session::Error(session::Outcome::usage, "--image needs --print NAME");
+  const WatchedValues& watched = threads.values.front();
+  const profiler::ValueImage image = asImage(threads, watched);
+  if (path.ends_with(".exr")) {
+    profiler::writeValueExr(path, image);
+  } else if (path.ends_with(".png")) {
+    profiler::ValueImageText text;
+    text.title = watched.name + " (" + glslName(watched.type) + ")";
+    text.subtitle = std::string(options.after ? "after" : "before") + " line " + options.at +
+                    (options.iteration.empty() ? "" : ", iteration " + options.iteration);
+    profiler::writeFile(path, profiler::drawValueImage(image, text));
+  } else {
+    throw session::Error(session::Outcome::usage,
+                         "--image takes a file that ends in .png or .exr, not '" + path + "'");
+  }
+}
+
+}  // namespace
+
+int debugValues(session::Session& session, const Common& common, const DebugOptions& options) {
+  const session::PlaceSelection place = placeOf(options);
+  std::optional<std::size_t> pixel;
+  if (!options.pixel.empty()) {
+    const std::vector<int> xy = parseIntegers(options.pixel, "--pixel", 2, 2);
+    const session::DrawFacts& facts = session.facts();
+    if (xy[0] < 0 || xy[1] < 0 || xy[0] >= facts.width || xy[1] >= facts.height) {
+      throw session::Error(session::Outcome::nothing_matches,
+                           "pixel " + options.pixel + " is outside the target of " +
+                               std::to_string(facts.width) + " x " + std::to_string(facts.height));
+    }
+    pixel = static_cast<std::size_t>(xy[1]) * static_cast<std::size_t>(facts.width) +
+            static_cast<std::size_t>(xy[0]);
+  }
+
+  const ThreadValues threads = session::valuesAt(session, place, splitList(options.print));
+  if (threads.reached == 0) {
+    throw session::Error(session::Outcome::nothing_matches,
+                         "none of the " + withThousands(threads.launched) + " threads gets to line " +
+                             options.at +
+                             (options.iteration.empty() ? "" : " in iteration " + options.iteration) +
+                             "; 'shadestep loops' says how many iterations there are");
+  }
+  if (!options.image.empty()) {
+    for (const std::string& file : splitList(options.image)) writeImage(common.inOut(file), threads, options);
+  }
+  if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(threads));
+  if (common.json) {
+    print(asJson(threads, pixel));
+  } else {
+    printText(threads, options, pixel);
+  }
+  return threads.check.compared_at_all && !threads.check.identical()
+             ? static_cast<int>(session::Outcome::failed)
+             : 0;
+}
+
+}  // namespace shadestep::cli

@@ -1,0 +1,68 @@
+// What all commands share: the selection, the common options, and how results and errors leave the program.
+// The promises to users stand in docs/cli.md.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/session.h"
+
+namespace shadestep::cli {
+
+// JSON documents keep the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+struct Common {
+  std::vector<std::string> program;  // after "--"
+  std::uint64_t frame = 0;
+  std::uint64_t draw = 0;
+  std::string stage = "fragment";
+  bool json = false;
+  bool quiet = false;
+  bool no_ptrace = false;
+  std::string out = ".";  // directory for files without a path of their own
+  int timeout = 0;        // seconds; 0 = none
+
+  session::LaunchOptions launchOptions() const;
+  // The path of a file that the user named, or of one of ours in --out (which is made).
+  std::string inOut(const std::string& name) const;
+};
+
+// What a command does once the command line is understood; its result is the exit code.
+using Action = std::function<int()>;
+
+void addCommonOptions(CLI::App&, Common&);
+void addSelectionOptions(CLI::App&, Common&);  // --frame --draw --stage
+
+// "X,Y" or "A,B,C" as integers; throws Error{usage} naming the option.
+std::vector<int> parseIntegers(const std::string& text, const std::string& option, std::size_t at_least,
+                               std::size_t at_most);
+std::vector<std::string> splitList(const std::string& text);  // at commas, blanks trimmed; brackets respected
+
+// The selected stage; throws Error{cannot_debug} for stages that this version does not step through.
+session::Stage selectedStage(const Common&);
+// Launches, runs to the selected draw and checks that it can be debugged.
+void runToSelection(session::Session&, const Common&);
+
+void print(const Json& document);  // one document on stdout
+Json toJson(const session::Check&);
+std::string describe(const session::Check&);
+Json toJson(const instrumenter::Value&);  // exact: shortest digits; NaN and infinities as strings
+Json number(double value);                // NaN and infinities as strings
+std::string withThousands(std::uint64_t value);
+
+// ---- the commands, a file each --------------------------------------------------------------------------
+void addRun(CLI::App&, Common&, Action&);
+void addDraws(CLI::App&, Common&, Action&);
+void addSource(CLI::App&, Common&, Action&);
+void addDebug(CLI::App&, Common&, Action&);
+void addLoops(CLI::App&, Common&, Action&);
+void addProfile(CLI::App&, Common&, Action&);
+void addDoctor(CLI::App&, Common&, Action&);
+
+}  // namespace shadestep::cli

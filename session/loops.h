@@ -1,0 +1,36 @@
+// The loop profiler (thesis 7.1.6): per loop, how many threads iterate and how many leave at each iteration.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session/session.h"
+
+namespace shadestep::session {
+
+struct LoopReport {
+  frontend::StatementId statement = frontend::kNone;
+  int line = 0;
+  std::string function;
+  std::uint64_t threads = 0;  // threads that enter the loop at least once
+  // active[i]: threads that begin iteration i; left[i]: those of them that do not begin iteration i+1.
+  // Where a thread enters the loop more than once (`entries` > 1), its longest entry counts.
+  std::vector<std::uint64_t> active, left;
+  std::uint32_t entries = 0;              // most entries by one thread
+  std::uint32_t max = 0;                  // iterations of the longest thread, all entries together
+  double mean = 0;                        // iterations per thread that enters
+  std::vector<std::uint32_t> iterations;  // per pixel, rows bottom up, all entries together
+};
+
+struct LoopsReport {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> marks;  // per pixel: instrumenter::kLaunched where a thread is visible
+  std::vector<LoopReport> loops;
+  Check check;
+};
+
+// All loops of the fragment shader, or the one at `line` if line > 0. Throws nothing_matches if there is
+// none.
+LoopsReport profileLoops(Session&, int line = 0);
+
+}  // namespace shadestep::session

@@ -1,0 +1,201 @@
+#include "session/programs.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+#include "session/error.h"
+
+namespace shadestep::session {
+namespace {
+
+constexpr int kGreetingMs = 5000;  // an agent speaks at once; this only bounds a broken one
+
+wire::Listener makeListener() {
+  auto listener = wire::Listener::create();
+  if (!listener) throw Error(Outcome::failed, "cannot open a Unix socket to talk to the program under debug");
+  return std::move(*listener);
+}
+
+std::vector<std::pair<std::string, std::string>> preloadEnvironment(const std::string& interceptor,
+                                                                    const std::string& socket) {
+  std::string preload = interceptor;
+  if (const char* others = std::getenv("LD_PRELOAD"); others != nullptr && *others != '\0') {
+    preload += std::string(":") + others;
+  }
+  return {{"LD_PRELOAD", preload}, {wire::kSocketVariable, socket}};
+}
+
+int remainingMs(const Programs::Deadline& deadline) {
+  if (!deadline) return -1;
+  const auto left =
+      std::chrono::duration_cast<std::chrono::milliseconds>(*deadline - std::chrono::steady_clock::now());
+  return static_cast<int>(std::clamp<long long>(left.count(), 0, 1'000'000'000));
+}
+
+}  // namespace
+
+bool sendMessage(wire::Channel& channel, const wire::MessageT& message) {
+  flatbuffers::FlatBufferBuilder builder;
+  builder.Finish(wire::Message::Pack(builder, &message));
+  return channel.send({builder.GetBufferPointer(), builder.GetSize()});
+}
+
+Programs::Programs(const std::vector<std::string>& command, const std::string& interceptor,
+                   bool output_to_stderr)
+    : listener_(makeListener()),
+      name_(command.front()),
+      process_(
+          Process::launch(command, preloadEnvironment(interceptor, listener_.name()), output_to_stderr)) {}
+
+Programs::~Programs() {
+  quit();
+}
+
+void Programs::resumeStopped() {
+  if (stopped_ == nullptr) return;
+  wire::MessageT message;
+  message.body.Set(wire::ResumeT(policy_));
+  stopped_->stopped = false;
+  sendMessage(stopped_->channel, message);
+  stopped_ = nullptr;
+}
+
+// A new process has connected: it says Hello, and is told the policy.
+void Programs::greet() {
+  auto peer = std::make_unique<Peer>();
+  peer->channel = listener_.accept(0);
+  wire::Packet packet;
+  if (!peer->channel.open() || peer->channel.receive(packet, kGreetingMs) != wire::Received::message) return;
+  const wire::Hello* hello = wire::GetMessage(packet.bytes.data())->body_as_Hello();
+  if (hello == nullptr) return;
+  if (hello->protocol() != wire::kProtocol) {
+    throw Error(Outcome::failed, "the interceptor in the program speaks protocol " +
+                                     std::to_string(hello->protocol()) + ", this shadestep " +
+                                     std::to_string(wire::kProtocol) + "; use the two of one build");
+  }
+  peer->page = wire::SharedMemory::map(std::move(packet.bulk));
+  if (!peer->page || peer->page.size() < sizeof(wire::StatusPage)) return;
+  peer->pid = hello->pid();
+  peer->program = hello->program() != nullptr ? hello->program()->str() : "";
+  last_.connected = true;
+
+  wire::MessageT message;
+  message.body.Set(wire::ResumeT(policy_));
+  if (sendMessage(peer->channel, message)) peers_.push_back(std::move(peer));
+}
+
+void Programs::noteLast(const Peer& peer) {
+  const wire::StatusPage& page = peer.status();
+  if (page.used_gl.load() == 0) return;
+  last_.used_gl = true;
+  last_.frame = page.frame.load();
+  last_.draws = page.draw.load();
+  last_.frames = last_.frame + (last_.draws > 0 ? 1 : 0);
+  last_.total_draws = page.draws.load();
+}
+
+void Programs::dropClosed() {
+  for (const auto& peer : peers_) {
+    if (!peer->channel.open()) noteLast(*peer);
+  }
+  std::erase_if(peers_, [](const auto& peer) { return !peer->channel.open(); });
+}
+
+std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) {
+  while (true) {
+    std::vector<pollfd> entries;
+    entries.push_back({listener_.descriptor(), POLLIN, 0});
+    const bool running = !process_.wait(0);
+    if (running) entries.push_back({process_.descriptor(), POLLIN, 0});
+    const std::size_t first_peer = entries.size();
+    for (const auto& peer : peers_) entries.push_back({peer->channel.descriptor(), POLLIN, 0});
+    if (!running && peers_.empty()) {
+      // A process may have connected just before the command ended.
+      if (poll(entries.data(), 1, 0) <= 0) return nullptr;
+    } else if (poll(entries.data(), entries.size(), remainingMs(deadline)) == 0) {
+      for (const auto& peer : peers_) noteLast(*peer);
+      throw Error(Outcome::ended, "the time limit ran out while the program was in frame " +
+                                      std::to_string(last_.frame) + ", after " + std::to_string(last_.draws) +
+                                      " draws of it; give more with --timeout");
+    }
+
+    for (std::size_t i = 0; i < peers_.size() && first_peer + i < entries.size(); ++i) {
+      if (entries[first_peer + i].revents == 0) continue;
+      Peer& peer = *peers_[i];
+      wire::Packet packet;
+      if (peer.channel.receive(packet, 0) != wire::Received::message) continue;  // closed: dropped below
+      std::unique_ptr<wire::MessageT> message(wire::UnPackMessage(packet.bytes.data()));
+      if (const wire::ExitingT* exiting = message->body.AsExiting()) {
+        noteLast(peer);
+        last_.orderly = true;
+        last_.frame = exiting->frames;
+        last_.draws = exiting->draws;
+        continue;
+      }
+      if (message->body.AsStopped() != nullptr || message->body.AsFrameEnded() != nullptr) {
+        peer.stopped = true;
+        stopped_ = &peer;
+        noteLast(peer);
+        return message;
+      }
+      peer.channel.close();  // says something out of turn: not our agent
+    }
+    dropClosed();
+    if ((entries[0].revents & POLLIN) != 0) greet();
+  }
+}
+
+wire::Packet Programs::request(wire::MessageT& message, const Deadline& deadline) {
+  if (stopped_ == nullptr) throw Error(Outcome::failed, "the program under debug is not stopped at a draw");
+  wire::Packet reply;
+  wire::Received received = wire::Received::closed;
+  if (sendMessage(stopped_->channel, message))
+    received = stopped_->channel.receive(reply, remainingMs(deadline));
+  if (received == wire::Received::message) return reply;
+  if (received == wire::Received::timeout) {
+    throw Error(Outcome::failed, "the time limit ran out during a replay; give more with --timeout");
+  }
+  stopped_->channel.close();
+  stopped_ = nullptr;
+  dropClosed();
+  const auto& status = process_.wait(2000);
+  throw Error(Outcome::failed, "the program under debug died while its draw was replayed" +
+                                   (status ? ": it " + status->describe() : std::string()));
+}
+
+void Programs::quit() {
+  if (stopped_ != nullptr) {
+    wire::MessageT message;
+    message.body.Set(wire::QuitT{});
+    sendMessage(stopped_->channel, message);
+    stopped_ = nullptr;
+  }
+  if (!process_.wait(0)) {
+    process_.kill(SIGTERM);
+    process_.kill(SIGCONT);
+    if (!process_.wait(500)) process_.kill(SIGKILL);
+    process_.wait(-1);
+  }
+  // Processes that the command started and left behind.
+  for (const auto& peer : peers_) {
+    if (peer->channel.open() && peer->pid > 1 && peer->pid != process_.pid()) ::kill(peer->pid, SIGKILL);
+  }
+  peers_.clear();
+}
+
+std::string Programs::describeEnd() {
+  const auto& status = process_.wait(0);
+  const std::string ended = "'" + name_ + "' " + (status ? status->describe() : std::string("ended"));
+  if (!last_.connected) {
+    return ended + " without loading the interceptor; 'shadestep doctor -- " + name_ + "' says why";
+  }
+  if (!last_.used_gl)
+    return ended + " without using OpenGL; 'shadestep doctor -- " + name_ + "' says what it loads";
+  return ended + " in frame " + std::to_string(last_.frame) + " after " + std::to_string(last_.draws) +
+         (last_.draws == 1 ? " draw of it" : " draws of it");
+}
+
+}  // namespace shadestep::session

@@ -1,0 +1,82 @@
+// All processes that the launched command became: the command itself and whatever it started that loads the
+// interceptor. Waits on all of them at once; hands out what they say.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/process.h"
+#include "wire/channel.h"
+#include "wire/messages_generated.h"
+#include "wire/status_page.h"
+
+namespace shadestep::session {
+
+struct Peer {
+  wire::Channel channel;
+  wire::SharedMemory page;  // holds a wire::StatusPage
+  pid_t pid = -1;
+  std::string program;
+  bool stopped = false;
+
+  const wire::StatusPage& status() const { return *reinterpret_cast<const wire::StatusPage*>(page.data()); }
+};
+
+// Where the programs were at last: kept when a peer goes.
+struct LastSeen {
+  bool connected = false;  // some process loaded the interceptor
+  bool used_gl = false;
+  bool orderly = false;  // it said Exiting
+  std::uint64_t frame = 0;
+  std::uint64_t draws = 0;   // in that frame
+  std::uint64_t frames = 0;  // ended or, without presenting, drawn to
+  std::uint64_t total_draws = 0;
+};
+
+class Programs {
+ public:
+  using Deadline = std::optional<std::chrono::steady_clock::time_point>;
+
+  Programs(const std::vector<std::string>& command, const std::string& interceptor, bool output_to_stderr);
+  ~Programs();
+
+  // What newly connected processes are told, and what `resumeAll` tells the stopped ones.
+  void setPolicy(const wire::ResumeT& policy) { policy_ = policy; }
+  void resumeStopped();
+
+  // Waits until a process stops (Stopped, FrameEnded), and returns its message; null when all have ended.
+  // Throws Error{ended} at the deadline.
+  std::unique_ptr<wire::MessageT> waitForStop(const Deadline&);
+
+  // Sends a request to the stopped process and waits for its reply. Throws Error{failed} if it died.
+  wire::Packet request(wire::MessageT& message, const Deadline&);
+
+  // Ends all processes.
+  void quit();
+
+  bool isStopped() const { return stopped_ != nullptr; }
+  const LastSeen& lastSeen() const { return last_; }
+  const std::optional<ExitStatus>& exitStatus() { return process_.wait(0); }
+  // Where things stood when all ended, for the user.
+  std::string describeEnd();
+
+ private:
+  void greet();
+  void noteLast(const Peer&);
+  void dropClosed();
+
+  wire::Listener listener_;
+  std::string name_;
+  Process process_;
+  std::vector<std::unique_ptr<Peer>> peers_;
+  Peer* stopped_ = nullptr;
+  wire::ResumeT policy_;
+  LastSeen last_;
+};
+
+// Serializes and sends; false if the other side is gone.
+bool sendMessage(wire::Channel&, const wire::MessageT&);
+
+}  // namespace shadestep::session

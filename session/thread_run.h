@@ -1,0 +1,60 @@
+// One thread's whole run, as a person follows it: every step, what it changed, which way each branch went.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session/session.h"
+
+namespace shadestep::session {
+
+struct NamedValue {
+  std::string name;
+  instrumenter::Value value;
+};
+
+struct Step {
+  enum class Kind {
+    statement,  // an expression or declaration
+    condition,  // of an if, loop or switch: see `outcome`
+    call,       // a statement is about to call user functions; their steps follow
+    enter,      // a called function begins; `changed` holds its parameters
+    leave,      // a called function ends without a return statement
+    return_,
+    jump,  // break, continue, discard
+  };
+  Kind kind = Kind::statement;
+  frontend::StatementId statement = frontend::kNone;
+  int line = 0, column = 0;
+  std::string function;
+  int depth = 0;  // 0 in main
+  std::vector<int>
+      iteration;  // per loop that the step is in, outermost first over the whole call path, 0-based
+  std::vector<NamedValue> changed;
+  std::string outcome;  // condition: "true", "false", or the selector of a switch
+};
+
+struct ThreadRun {
+  int x = 0, y = 0;
+  int hit = 0;          // number of this fragment among those on its pixel, in order of start
+  int hits = 1;         // fragments on the pixel
+  bool visible = true;  // this one is what the pixel shows (so far)
+  bool discarded = false;
+  std::vector<Step> steps;
+  std::vector<std::vector<float>>
+      outputs;  // the program's own colour outputs at the pixel after the draw, RGBA
+  Check check;
+};
+
+// Records the fragments on a pixel (gl_FragCoord's origin, lower left) and follows one of them: the `hit`-th,
+// or, if hit < 0, the visible one (the last if none is).
+// Throws nothing_matches if no fragment of the draw is there.
+ThreadRun followPixel(Session&, int x, int y, int hit = -1);
+
+// The steps of one recorded thread.
+std::vector<Step> stepsOf(const frontend::Shader&, const instrumenter::RecordingLayout&,
+                          const instrumenter::ThreadRecording&);
+
+const char* kindName(Step::Kind);
+
+}  // namespace shadestep::session

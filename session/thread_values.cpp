@@ -1,0 +1,211 @@
+#include "session/thread_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "session/values.h"
+
+namespace shadestep::session {
+namespace {
+
+using frontend::kNone;
+using frontend::Shader;
+using frontend::StatementId;
+using frontend::StatementKind;
+using instrumenter::Probe;
+
+std::string lineRange(const Shader& shader) {
+  int first = 0;
+  int last = 0;
+  for (const frontend::Statement& statement : shader.statements) {
+    if (statement.kind == StatementKind::block || statement.place.line <= 0) continue;
+    if (first == 0 || statement.place.line < first) first = statement.place.line;
+    last = std::max(last, statement.place.line);
+  }
+  return "lines " + std::to_string(first) + " to " + std::to_string(last) + " hold statements";
+}
+
+StatementId statementAt(const Shader& shader, int line, int column) {
+  const std::vector<StatementId> candidates = frontend::statementsAt(shader, line, column);
+  if (candidates.empty()) {
+    throw Error(Outcome::nothing_matches,
+                "no statement at line " + std::to_string(line) +
+                    (column > 0 ? ", column " + std::to_string(column) : std::string()) + "; " +
+                    lineRange(shader) + " ('shadestep source' lists them)");
+  }
+  return candidates.front();
+}
+
+// The calls from main to the function, one per line of the user's --call, outermost first.
+std::vector<frontend::CallId> callPath(const Shader& shader, frontend::FunctionId target,
+                                       const std::vector<int>& lines) {
+  std::vector<frontend::CallId> path;
+  frontend::FunctionId in = shader.main;
+  for (const int line : lines) {
+    frontend::CallId found = kNone;
+    std::string present;
+    for (std::size_t id = 0; id < shader.calls.size(); ++id) {
+      const frontend::Call& call = shader.calls[id];
+      if (call.caller != in) continue;
+      const int at = shader.tokens[static_cast<std::size_t>(call.name)].place.line;
+      present += (present.empty() ? "" : ", ") + std::to_string(at);
+      if (at == line && found == kNone) found = static_cast<frontend::CallId>(id);
+    }
+    const std::string& name = shader.functions[static_cast<std::size_t>(in)].name;
+    if (found == kNone) {
+      throw Error(Outcome::nothing_matches,
+                  "'" + name + "' calls no function at line " + std::to_string(line) +
+                      (present.empty() ? "; it calls none" : "; it does at line " + present));
+    }
+    path.push_back(found);
+    in = shader.calls[static_cast<std::size_t>(found)].callee;
+  }
+  if (!lines.empty() && in != target) {
+    throw Error(Outcome::nothing_matches, "the calls of --call lead to '" +
+                                              shader.functions[static_cast<std::size_t>(in)].name +
+                                              "', but the line is in '" +
+                                              shader.functions[static_cast<std::size_t>(target)].name + "'");
+  }
+  return path;
+}
+
+}  // namespace
+
+Probe probeAt(const Shader& shader, const PlaceSelection& place) {
+  Probe probe;
+  probe.statement = statementAt(shader, place.line, place.column);
+  probe.when = place.after ? Probe::When::after : Probe::When::before;
+  const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(probe.statement)];
+  probe.call_path = callPath(shader, statement.function, place.call_lines);
+
+  std::size_t loops = frontend::enclosingLoops(shader, probe.statement).size();
+  for (const frontend::CallId call : probe.call_path) {
+    const StatementId at = shader.calls[static_cast<std::size_t>(call)].statement;
+    if (at != kNone) loops += frontend::enclosingLoops(shader, at).size();
+  }
+  // A function that is looked at through any call may lie in loops of its callers that are not known here.
+  const bool any_call = probe.call_path.empty() && statement.function != shader.main;
+  if (place.iteration.size() > loops && !any_call) {
+    throw Error(Outcome::nothing_matches, "line " + std::to_string(place.line) + " lies in " +
+                                              std::to_string(loops) + (loops == 1 ? " loop" : " loops") +
+                                              "; --iteration gave " + std::to_string(place.iteration.size()) +
+                                              " numbers");
+  }
+  if (any_call && place.iteration.size() > loops) {
+    throw Error(Outcome::nothing_matches,
+                "line " + std::to_string(place.line) + " is in the function '" +
+                    shader.functions[static_cast<std::size_t>(statement.function)].name +
+                    "': say with --call from which line it is called, so that the loops of "
+                    "its callers can be counted");
+  }
+  probe.iterations = place.iteration;
+  return probe;
+}
+
+ThreadValues valuesAt(Session& session, const PlaceSelection& place,
+                      const std::vector<std::string>& watches) {
+  const Shader& shader = session.shader(Stage::fragment);
+  Probe probe = probeAt(shader, place);
+  std::vector<frontend::Watch> wanted;
+  for (const std::string& text : watches) {
+    frontend::WatchResult resolved = frontend::resolveWatch(shader, probe.statement, text);
+    if (!resolved.watch) throw Error(Outcome::nothing_matches, resolved.error);
+    if (frontend::wordCount(resolved.watch->type) == 0) {
+      throw Error(Outcome::nothing_matches, "'" + text + "' is a " + glslName(resolved.watch->type) +
+                                                ", which holds no value to print");
+    }
+    wanted.push_back(std::move(*resolved.watch));
+  }
+
+  ThreadValues result;
+  result.statement = probe.statement;
+  std::size_t done = 0;
+  do {
+    probe.watches.assign(wanted.begin() + static_cast<std::ptrdiff_t>(done), wanted.end());
+    auto instrumented = instrumenter::instrumentSingle(shader, probe, session.target());
+    if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) {
+      throw Error(Outcome::cannot_debug, failure->reason);
+    }
+    const auto& attachment_shader = std::get<instrumenter::AttachmentShader>(instrumented);
+    const Captured captured = session.capture(attachment_shader);
+    const std::size_t fields = captured.layout.fields.size();
+    if (fields == 0 && done < wanted.size()) {
+      throw Error(Outcome::cannot_debug, "'" + wanted[done].expression +
+                                             "' is larger than what the driver's " +
+                                             std::to_string(session.facts().max_draw_buffers) +
+                                             " draw buffers hold (GL_MAX_DRAW_BUFFERS); print a part of it");
+    }
+
+    const std::size_t pixels =
+        static_cast<std::size_t>(captured.threads.width) * static_cast<std::size_t>(captured.threads.height);
+    if (done == 0) {
+      result.width = captured.threads.width;
+      result.height = captured.threads.height;
+      result.marks.resize(pixels);
+      result.check = captured.execution.check;
+    } else {
+      result.check.merge(captured.execution.check);
+    }
+    const std::size_t stride = static_cast<std::size_t>(captured.layout.words);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      const auto mark = static_cast<std::uint8_t>(
+          instrumenter::decodeMark(captured.layout, captured.threads.data.data() + p * stride));
+      if (done > 0 && mark != result.marks[p]) {
+        throw Error(Outcome::failed,
+                    "two passes of one probe disagree about which threads got there; "
+                    "the draw does not repeat exactly, so its values cannot be trusted");
+      }
+      result.marks[p] = mark;
+    }
+    for (const instrumenter::Field& field : captured.layout.fields) {
+      WatchedValues values{
+          field.name, field.type, static_cast<std::size_t>(frontend::wordCount(field.type)), {}};
+      values.words.assign(pixels * values.stride, 0);
+      for (std::size_t p = 0; p < pixels; ++p) {
+        if (!result.reachedAt(p)) continue;
+        const instrumenter::Value value =
+            instrumenter::decode(captured.layout, field, captured.threads.data.data() + p * stride);
+        std::copy(value.words.begin(), value.words.end(),
+                  values.words.begin() + static_cast<std::ptrdiff_t>(p * values.stride));
+      }
+      result.values.push_back(std::move(values));
+    }
+    done += fields;
+  } while (done < wanted.size());
+
+  for (const std::uint8_t mark : result.marks) {
+    result.launched += mark != 0 ? 1 : 0;
+    result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
+  }
+  return result;
+}
+
+std::vector<ComponentStatistics> statistics(const ThreadValues& threads, const WatchedValues& values) {
+  std::vector<ComponentStatistics> result;
+  std::size_t word = 0;
+  for (const frontend::Component& component : frontend::components(values.type)) {
+    ComponentStatistics one;
+    one.access = component.access;
+    double sum = 0;
+    for (std::size_t p = 0; p < threads.marks.size(); ++p) {
+      if (!threads.reachedAt(p)) continue;
+      const double value = componentAsDouble(component.basic, values.at(p) + word);
+      if (std::isnan(value)) {
+        ++one.nan;
+      } else if (std::isinf(value)) {
+        ++one.inf;
+      } else {
+        one.min = one.finite == 0 ? value : std::min(one.min, value);
+        one.max = one.finite == 0 ? value : std::max(one.max, value);
+        sum += value;
+        ++one.finite;
+      }
+    }
+    if (one.finite > 0) one.mean = sum / static_cast<double>(one.finite);
+    result.push_back(std::move(one));
+    word += static_cast<std::size_t>(wordsPerComponent(component.basic));
+  }
+  return result;
+}
+
+}  // namespace shadestep::session

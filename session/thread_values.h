@@ -1,0 +1,59 @@
+// Values of chosen variables at one place of the shader, for all threads of the draw at once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/session.h"
+
+namespace shadestep::session {
+
+// A place in the source, as the user names it.
+struct PlaceSelection {
+  int line = 0;
+  int column = 0;               // 0: the first statement of the line
+  std::vector<int> iteration;   // per enclosing loop over the call path, outermost first
+  std::vector<int> call_lines;  // lines of the calls that lead to the place, outermost first
+  bool after = false;           // after the statement instead of before it
+};
+
+// One watched value over all threads.
+struct WatchedValues {
+  std::string name;
+  frontend::Type type;
+  std::size_t stride = 0;            // words per thread, in canonical order (frontend::components)
+  std::vector<std::uint32_t> words;  // width*height*stride, rows bottom up; 0 where not reached
+
+  const std::uint32_t* at(std::size_t pixel) const { return words.data() + pixel * stride; }
+  instrumenter::Value valueAt(std::size_t pixel) const { return {type, {at(pixel), at(pixel) + stride}}; }
+};
+
+struct ThreadValues {
+  int width = 0, height = 0;
+  std::uint64_t launched = 0;       // threads whose fragment is visible
+  std::uint64_t reached = 0;        // of these, those that got to the place
+  std::vector<std::uint8_t> marks;  // width*height: instrumenter::kLaunched | kReached
+  std::vector<WatchedValues> values;
+  frontend::StatementId statement = frontend::kNone;
+  Check check;
+
+  bool reachedAt(std::size_t pixel) const { return (marks[pixel] & instrumenter::kReached) != 0; }
+};
+
+// Runs as many single-probe passes as the watches need and joins them.
+// Throws nothing_matches for a place or a name that is not there, saying what is.
+ThreadValues valuesAt(Session&, const PlaceSelection&, const std::vector<std::string>& watches);
+
+// The statement and call path that a selection means. Throws nothing_matches.
+instrumenter::Probe probeAt(const frontend::Shader&, const PlaceSelection&);
+
+// Statistics of one component over all threads that reached the place.
+struct ComponentStatistics {
+  std::string access;                 // "" or ".x", "[1].z", ".field[2]"
+  double min = 0, max = 0, mean = 0;  // over finite values; 0 when there is none
+  std::uint64_t finite = 0, nan = 0, inf = 0;
+};
+std::vector<ComponentStatistics> statistics(const ThreadValues&, const WatchedValues&);
+
+}  // namespace shadestep::session
