@@ -1,0 +1,84 @@
+// Bad input: the exit codes of docs/cli.md, one clear sentence, no process and no half-written file left.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "launch.h"
+
+namespace shadestep::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::vector<std::string> kRaycaster = {binary("raycaster"), "--size", "32", "--step", "0.05"};
+
+// One sentence on stderr from shadestep, nothing on stdout, and no file left in the directory.
+void expectRefusal(const Finished& finished, int status, const std::string& words) {
+  EXPECT_EQ(finished.status, status) << finished.command << "\n" << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("shadestep: ")) << finished.command;
+  EXPECT_THAT(finished.err, HasSubstr(words)) << finished.command;
+  EXPECT_THAT(finished.out, IsEmpty()) << finished.command;
+}
+
+struct Case {
+  std::string name;
+  std::vector<std::string> arguments, program;
+  int status;
+  std::string words;
+};
+
+class BadInput : public testing::TestWithParam<Case> {};
+
+TEST_P(BadInput, IsSaidWithItsExitCode) {
+  const Case& given = GetParam();
+  const Scratch scratch;
+  expectRefusal(scratch.shadestep(given.arguments, given.program), given.status, given.words);
+  EXPECT_THAT(scratch.files(), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EndToEnd, BadInput,
+    testing::Values(
+        Case{"NoSuchProgram", {"debug", "--pixel", "1,1"}, {"./no-such-program"}, 2, "no-such-program"},
+        Case{"NoProgram", {"debug", "--pixel", "1,1"}, {}, 2, "after '--'"},
+        Case{"NeitherThreadNorPlace", {"debug"}, kRaycaster, 2, "--pixel"},
+        Case{"PixelIsNoPixel", {"debug", "--pixel", "middle"}, kRaycaster, 2, "--pixel"},
+        Case{"NoSuchStageName", {"debug", "--pixel", "1,1", "--stage", "pixel"}, kRaycaster, 2, "pixel"},
+        Case{"NoGlInIt", {"debug", "--pixel", "1,1"}, {binary("programs/no-gl")}, 5, "without using OpenGL"},
+        Case{"NoSuchFrame", {"debug", "--frame", "7", "--pixel", "1,1"}, kRaycaster, 5, "before frame 7"},
+        Case{"NoSuchDraw", {"debug", "--draw", "9", "--pixel", "1,1"}, kRaycaster, 3, "has 1 draw: 0"},
+        Case{"PixelOutside", {"debug", "--pixel", "32,0"}, kRaycaster, 3, "32 x 32"},
+        Case{"PixelNotCovered", {"debug", "--pixel", "0,0"}, kRaycaster, 3, "no fragment on pixel 0,0"},
+        Case{"NoSuchLine", {"debug", "--at", "9999", "--print", "dst"}, kRaycaster, 3, "hold statements"},
+        Case{"NoSuchVariable", {"debug", "--at", "64", "--print", "nothing_like_it"}, kRaycaster, 3, "nothing_like_it"},
+        Case{"NoSuchIteration", {"debug", "--at", "67", "--iteration", "4000", "--print", "pos"}, kRaycaster, 3, "none of the"},
+        Case{"TooManyIterations", {"debug", "--at", "67", "--iteration", "1,2", "--print", "pos"}, kRaycaster, 3, "lies in 1 loop"},
+        Case{"NoSuchLoop", {"loops", "--at", "1"}, kRaycaster, 3, "there are loops at line"},
+        Case{"StageNotThere", {"source", "--stage", "geometry"}, kRaycaster, 3, "vertex, fragment"},
+        Case{"StageNotYet", {"debug", "--stage", "vertex", "--pixel", "16,16"}, kRaycaster, 4, "fragment shaders only"},
+        Case{"FixedFunction", {"debug", "--pixel", "1,1"}, {binary("programs/fixed-function")}, 4, "fixed"},
+        Case{"EndsEarly", {"debug", "--pixel", "1,1"}, {binary("programs/no-draw")}, 3, "no draw"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(EndToEnd, ACrashBeforeTheDrawIsSaidAsSuch) {
+  const Scratch scratch;
+  const Finished finished = scratch.shadestep({"debug", "--pixel", "1,1"}, {binary("programs/crash"), "before"});
+  expectRefusal(finished, 5, "signal 11");
+}
+
+TEST(EndToEnd, NoProcessIsLeftBehind) {
+  const Scratch scratch;
+  // The program, which would run for hours, is found again by a mark in its environment.
+  const std::string mark = "SHADESTEP_TEST_MARK=" + scratch.path().filename().string();
+  const Finished debugged = scratch.shadestep({"debug", "--pixel", "16,16", "--json"},
+                                              {"env", mark, binary("raycaster"), "--size", "32", "--frames", "1000000"});
+  EXPECT_EQ(debugged.status, 0) << debugged.err;
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    EXPECT_EQ(readFile(process.path() / "environ").find(mark), std::string::npos) << process.path() << " still runs";
+  }
+}
+
+}  // namespace
+}  // namespace shadestep::test
