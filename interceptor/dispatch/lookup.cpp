@@ -14,11 +14,16 @@ namespace shadestep::dispatch {
 
 namespace {
 
-// The library around an address, as a handle for dlsym (in glibc the two are one).
-void* libraryAround(const void* address) {
+// Looks `name` up in the library around `address` and what that was loaded with, as by a handle of its own.
+void* inLibraryAround(const void* address, const char* name) {
   Dl_info info;
   link_map* library = nullptr;
-  return dladdr1(address, &info, reinterpret_cast<void**>(&library), RTLD_DL_LINKMAP) ? library : nullptr;
+  if (!dladdr1(address, &info, reinterpret_cast<void**>(&library), RTLD_DL_LINKMAP)) return nullptr;
+  const bool program = library->l_name[0] == '\0';
+  void* handle = dlopen(program ? nullptr : library->l_name, RTLD_LAZY | RTLD_NOLOAD);
+  void* found = handle ? realDlsym(handle, name) : nullptr;
+  if (handle) dlclose(handle);
+  return found;
 }
 
 bool inSameLibrary(const void* one, const void* other) {
@@ -29,24 +34,23 @@ bool inSameLibrary(const void* one, const void* other) {
 
 // A library that defines the name itself and asks for the next one is a hook like us, further down the chain.
 bool isHook(const void* caller, const char* name) {
-  void* library = libraryAround(caller);
-  const void* own = library ? realDlsym(library, name) : nullptr;
+  const void* own = inLibraryAround(caller, name);
   return own && inSameLibrary(own, caller);
 }
 
-// What the look-up would have found if our library were not there.
+// What the look-up would have found if our library were not there. If nothing, dlerror says so.
 void* withoutUs(void* handle, const char* name, const void* caller, Function wrapper) {
   const void* us = reinterpret_cast<const void*>(wrapper);
   if (handle != RTLD_NEXT) {
     void* found = realDlsym(handle, name);
     if (found != us) return found;
   }
-  if (void* found = realDlsym(RTLD_NEXT, name)) return found;
-  if (handle != RTLD_DEFAULT) return nullptr;
-  // A plug-in sees the libraries that were loaded for it alone.
-  void* library = libraryAround(caller);
-  void* found = library ? realDlsym(library, name) : nullptr;
-  return found == us ? nullptr : found;
+  if (handle == RTLD_DEFAULT) {
+    // A plug-in sees the libraries that were loaded for it alone.
+    void* found = inLibraryAround(caller, name);
+    if (found && found != us) return found;
+  }
+  return realDlsym(RTLD_NEXT, name);
 }
 
 bool canBeGl(const char* name) {

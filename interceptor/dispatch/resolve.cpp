@@ -8,6 +8,7 @@
 #include <cstring>
 #include <mutex>
 #include <span>
+#include <string_view>
 
 #include "interceptor/dispatch/driver_scope.h"
 #include "interceptor/registry/egl_table.h"
@@ -69,21 +70,41 @@ Function anyGl(const char* name) {
   return byOsmesa(name);
 }
 
-// The provider's own answer first: it knows which of several loaded libraries is its own.
+// Whether the function lies in one of the usual GL libraries, by the name of its file.
+bool inGlLibrary(Function function) {
+  Dl_info info{};
+  if (!dladdr(reinterpret_cast<void*>(function), &info) || !info.dli_fname) return false;
+  const std::string_view path = info.dli_fname;
+  const std::string_view file = path.substr(path.rfind('/') + 1);
+  const auto isFile = [&](std::string_view library) {
+    return file.starts_with(library.substr(0, library.find(".so") + 3));
+  };
+  return std::ranges::any_of(kGlLibraries, isFile) || std::ranges::any_of(kOsmesaLibraries, isFile);
+}
+
+// Another library that hooks the same function, after us in the program's search order.
+Function anotherHook(const char* name) {
+  Function next = nextInOrder(name);
+  return next && !inGlLibrary(next) ? next : nullptr;
+}
+
+// Another hook keeps its turn; then the provider's own answer: it knows which of several loaded libraries is
+// its.
 Function realGl(Provider provider, const char* name) {
-  Function found = nullptr;
+  if (provider == Provider::none) return anyGl(name);
+  if (Function found = anotherHook(name)) return found;
   switch (provider) {
     case Provider::none:
-      return anyGl(name);
+      break;
     case Provider::glx:
-      found = byGlx(name);
-      return found ? found : inLoadedLibraries(kGlLibraries, name);
+      if (Function found = byGlx(name)) return found;
+      return inLoadedLibraries(kGlLibraries, name);
     case Provider::egl:
-      found = byEgl(name);
-      return found ? found : inLoadedLibraries(kGlLibraries, name);
+      if (Function found = byEgl(name)) return found;
+      return inLoadedLibraries(kGlLibraries, name);
     case Provider::osmesa:
-      found = byOsmesa(name);
-      return found ? found : inLoadedLibraries(kOsmesaLibraries, name);
+      if (Function found = byOsmesa(name)) return found;
+      return inLoadedLibraries(kOsmesaLibraries, name);
   }
   return nullptr;
 }
