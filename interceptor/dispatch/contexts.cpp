@@ -78,11 +78,18 @@ const Context* currentContext() {
   return active ? &active->context : nullptr;
 }
 
+bool isBound(Provider provider, void* handle) {
+  const Record* record = bound[static_cast<int>(provider)];
+  return record && record->context.handle == handle;
+}
+
 void contextCreated(Provider provider, void* display, void* handle, void* share) {
   if (!handle) return;
   Contexts& all = contexts();
   const std::lock_guard lock(all.mutex);
-  if (!find(all, provider, handle)) add(all, provider, display, handle, share);
+  // Still known under this address: it went with its display, untold.
+  if (Record* former = find(all, provider, handle)) former->destroyed = true;
+  add(all, provider, display, handle, share);
 }
 
 void contextDestroyed(Provider provider, void* handle) {

@@ -11,6 +11,9 @@ void contextCreated(Provider provider, void* display, void* handle, void* share)
 // The context is gone once no thread has it current.
 void contextDestroyed(Provider provider, void* handle);
 
+// Whether this thread holds the context, be it the one that calls go to or not.
+bool isBound(Provider provider, void* handle);
+
 struct Current {
   void* display = nullptr;
   void* handle = nullptr;  // null: this thread's context of the provider was released

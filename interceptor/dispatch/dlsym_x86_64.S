@@ -1,5 +1,6 @@
 // The exported dlsym. libc's own finds out by its return address who is asking (RTLD_NEXT depends on it), so what
 // is not ours to answer is passed on by a jump, with the caller's return address still on the stack.
+// dlvsym is not hooked: no GL library gives its symbols versions.
         .text
         .globl  dlsym
         .type   dlsym, @function

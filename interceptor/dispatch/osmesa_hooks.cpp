@@ -20,8 +20,9 @@ void after_OSMesaCreateContextAttribs(OSMesaContext result, const int*, OSMesaCo
   dispatch::contextCreated(Provider::osmesa, nullptr, result, sharelist);
 }
 
-// Before: its address may be another context's as soon as it is gone.
+// Before: its address may be another context's as soon as it is gone. A current one is released thereby.
 void before_OSMesaDestroyContext(OSMesaContext ctx) {
+  if (ctx && dispatch::isBound(Provider::osmesa, ctx)) dispatch::contextMadeCurrent(Provider::osmesa, {});
   dispatch::contextDestroyed(Provider::osmesa, ctx);
 }
 

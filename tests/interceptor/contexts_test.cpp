@@ -116,6 +116,27 @@ TEST_F(Contexts, ANewContextAtAnOldAddressIsNew) {
   EXPECT_THAT(gone, ElementsAre(a));
 }
 
+TEST_F(Contexts, AContextThatWentWithItsDisplayIsForgottenWhenItsAddressComesAgain) {
+  contextCreated(Provider::egl, nullptr, a, nullptr);
+  use(Provider::egl, a);
+  const auto before = currentContext()->share_group;
+  use(Provider::egl, nullptr);
+  contextCreated(Provider::egl, nullptr, a, nullptr);
+  use(Provider::egl, a);
+  EXPECT_NE(currentContext()->share_group, before);
+  EXPECT_THAT(gone, ElementsAre(a));
+}
+
+TEST_F(Contexts, BoundIsWhatTheThreadHoldsOfEachProvider) {
+  use(Provider::glx, a);
+  use(Provider::osmesa, b);
+  EXPECT_TRUE(isBound(Provider::glx, a));
+  EXPECT_TRUE(isBound(Provider::osmesa, b));
+  EXPECT_FALSE(isBound(Provider::glx, b));
+  use(Provider::glx, nullptr);
+  EXPECT_FALSE(isBound(Provider::glx, a));
+}
+
 TEST_F(Contexts, ContextsOfUnknownOriginAreKnownWhenUsed) {
   contextMadeCurrent(Provider::osmesa, {.handle = a, .width = 30, .height = 20});
   EXPECT_EQ(currentProvider(), Provider::osmesa);
