@@ -1,0 +1,261 @@
+// The GLSL preprocessor (GLSL 4.60, 3.3): directives are carried out, macros expanded.
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "glsl-frontend/condition.h"
+#include "glsl-frontend/lexer.h"
+#include "glsl-frontend/macros.h"
+#include "glsl-frontend/tokens.h"
+
+namespace shadestep::frontend {
+
+namespace {
+
+// One #if ... #endif that is open.
+struct Conditional {
+  Place place;
+  bool outer_active = true;  // the text around it counts
+  bool active = false;       // the current branch counts
+  bool taken = false;        // some branch has counted
+  bool else_seen = false;
+};
+
+class Preprocessor {
+ public:
+  Preprocessor(const PreprocessorFacts& facts, Preprocessed& result) : result_(result) {
+    for (const std::string& extension : facts.extensions) macros_.defineNumber(extension, 1);
+    setVersion(facts.es ? 100 : 110, facts.es ? "es" : "");
+    if (facts.es) result_.profile = "";
+  }
+
+  void run(const std::vector<LexedLine>& lines) {
+    for (const LexedLine& line : lines) {
+      if (line.isDirective()) {
+        flush();
+        directive(line.tokens);
+      } else if (active()) {
+        for (const LexedToken& lexed : line.tokens) text_.push_back(lexed.token);
+      }
+    }
+    flush();
+    if (!conditionals_.empty()) {
+      throw PreprocessError{conditionals_.back().place, "this conditional has no #endif"};
+    }
+  }
+
+ private:
+  bool active() const { return conditionals_.empty() || conditionals_.back().active; }
+
+  // Text between two directives is expanded as a whole: a macro's call may stretch over lines.
+  void flush() {
+    std::vector<Token> expanded = macros_.expand(text_);
+    std::move(expanded.begin(), expanded.end(), std::back_inserter(result_.tokens));
+    text_.clear();
+  }
+
+  void directive(const std::vector<LexedToken>& line) {
+    place_ = line.front().token.place;
+    if (line.size() == 1) return;  // `#` alone
+    const std::string& name = line[1].token.text;
+    const std::vector<LexedToken> rest(line.begin() + 2, line.end());
+    if (conditional(name, rest) || !active()) return;
+    if (name == "define") {
+      define(rest);
+    } else if (name == "undef") {
+      macros_.undefine(macroName(rest, "#undef"));
+    } else if (name == "version") {
+      version(rest);
+      keep(line);
+    } else if (name == "extension") {
+      extension(rest);
+      keep(line);
+    } else if (name == "pragma") {
+      keep(line);
+    } else if (name == "line") {
+      lineNumber(rest);
+    } else if (name == "error") {
+      fail("#error " + joined(rest));
+    } else {
+      fail("#" + name + " is not known here; write the included or generated text into the shader itself");
+    }
+  }
+
+  // Carries out #if and its kin; says whether `name` was one of them.
+  bool conditional(const std::string& name, const std::vector<LexedToken>& rest) {
+    if (name == "if") {
+      open(active() && evaluateCondition(tokensOf(rest), macros_, place_));
+    } else if (name == "ifdef") {
+      open(active() && macros_.isDefined(macroName(rest, "#ifdef")));
+    } else if (name == "ifndef") {
+      open(active() && !macros_.isDefined(macroName(rest, "#ifndef")));
+    } else if (name == "elif") {
+      Conditional& current = innermost(name);
+      const bool may_take = current.outer_active && !current.taken;
+      branch(current, may_take && evaluateCondition(tokensOf(rest), macros_, place_));
+    } else if (name == "else") {
+      Conditional& current = innermost(name);
+      branch(current, current.outer_active && !current.taken);
+      current.else_seen = true;
+    } else if (name == "endif") {
+      if (conditionals_.empty()) fail("#endif without #if");
+      conditionals_.pop_back();
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void open(bool taken) { conditionals_.push_back({place_, active(), taken, taken, false}); }
+
+  Conditional& innermost(const std::string& name) {
+    if (conditionals_.empty()) fail("#" + name + " without #if");
+    if (conditionals_.back().else_seen) fail("#" + name + " after #else");
+    return conditionals_.back();
+  }
+
+  static void branch(Conditional& conditional, bool taken) {
+    conditional.active = taken;
+    conditional.taken = conditional.taken || taken;
+  }
+
+  void define(const std::vector<LexedToken>& rest) {
+    const std::string name = macroName(rest, "#define");
+    Macro macro;
+    std::size_t at = 1;
+    if (at < rest.size() && rest[at].token.text == "(" && !rest[at].space_before) {
+      macro.function_like = true;
+      at = parameters(rest, at + 1, macro.parameters);
+    }
+    for (; at < rest.size(); ++at) macro.body.push_back(rest[at].token);
+    macros_.define(name, std::move(macro));
+  }
+
+  std::size_t parameters(const std::vector<LexedToken>& rest, std::size_t at,
+                         std::vector<std::string>& names) {
+    const auto text = [&](std::size_t i) { return i < rest.size() ? rest[i].token.text : std::string(); };
+    if (text(at) == ")") return at + 1;
+    for (;; at += 2) {
+      if (at >= rest.size() || rest[at].token.kind != TokenKind::identifier) break;
+      names.push_back(rest[at].token.text);
+      if (text(at + 1) == ")") return at + 2;
+      if (text(at + 1) != ",") break;
+    }
+    fail("the parameters of this macro are not closed by a ')'");
+  }
+
+  void version(const std::vector<LexedToken>& rest) {
+    int number = 0;
+    if (rest.empty() || !parseInteger(rest[0].token.text, number)) fail("#version needs a number");
+    std::string profile = rest.size() > 1 ? rest[1].token.text : "";
+    result_.profile = profile;
+    setVersion(number, number == 100 ? "es" : profile);
+  }
+
+  // Macros that tell versions and profiles apart (GLSL 4.60, 3.3; GLSL ES 3.20, 3.3).
+  void setVersion(int version, const std::string& profile) {
+    result_.version = version;
+    const bool es = profile == "es";
+    for (const char* name : {"GL_ES", "GL_es_profile", "GL_core_profile", "GL_compatibility_profile",
+                             "GL_FRAGMENT_PRECISION_HIGH"}) {
+      macros_.undefine(name);
+    }
+    macros_.defineNumber("__VERSION__", version);
+    if (es) macros_.defineNumber("GL_ES", 1);
+    if (es && version >= 300) macros_.defineNumber("GL_es_profile", 1);
+    if (es || version >= 130) macros_.defineNumber("GL_FRAGMENT_PRECISION_HIGH", 1);
+    if (!es && version >= 150) {
+      macros_.defineNumber(profile == "compatibility" ? "GL_compatibility_profile" : "GL_core_profile", 1);
+    }
+  }
+
+  void extension(const std::vector<LexedToken>& rest) {
+    if (rest.size() != 3 || rest[1].token.text != ":") fail("#extension needs the form 'NAME : BEHAVIOUR'");
+    result_.extensions.emplace_back(rest[0].token.text, rest[2].token.text);
+  }
+
+  // `#line LINE [FILE]` numbers what follows for __LINE__ and __FILE__ only; places stay physical.
+  void lineNumber(const std::vector<LexedToken>& rest) {
+    const std::vector<Token> expanded = macros_.expand(tokensOf(rest));
+    int line = 0;
+    int file = 0;
+    if (expanded.empty() || !parseInteger(expanded[0].text, line)) fail("#line needs a number");
+    macros_.setLine(place_.line, line);
+    if (expanded.size() > 1 && parseInteger(expanded[1].text, file)) macros_.setFile(file);
+  }
+
+  void keep(const std::vector<LexedToken>& line) {
+    Token token;
+    token.kind = TokenKind::directive;
+    token.text = "#" + joined({line.begin() + 1, line.end()});
+    token.place = place_;
+    result_.tokens.push_back(std::move(token));
+  }
+
+  std::string macroName(const std::vector<LexedToken>& rest, const std::string& directive) {
+    if (rest.empty() || rest[0].token.kind != TokenKind::identifier) fail(directive + " needs a name");
+    return rest[0].token.text;
+  }
+
+  static bool parseInteger(const std::string& text, int& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+  }
+
+  static std::vector<Token> tokensOf(const std::vector<LexedToken>& lexed) {
+    std::vector<Token> tokens;
+    for (const LexedToken& token : lexed) tokens.push_back(token.token);
+    return tokens;
+  }
+
+  static std::string joined(const std::vector<LexedToken>& tokens) {
+    std::string text;
+    for (const LexedToken& lexed : tokens) text += (text.empty() ? "" : " ") + lexed.token.text;
+    return text;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const { throw PreprocessError{place_, message}; }
+
+  Preprocessed& result_;
+  MacroTable macros_;
+  std::vector<Conditional> conditionals_;
+  std::vector<Token> text_;
+  Place place_;  // of the current directive
+};
+
+}  // namespace
+
+Preprocessed preprocess(const std::vector<std::string>& strings, const PreprocessorFacts& facts) {
+  std::string text;
+  for (const std::string& string : strings) text += string;
+  Preprocessed result;
+  try {
+    Place unclosed;
+    const std::vector<LexedLine> lines = lex(text, &unclosed);
+    if (unclosed.line > 0) throw PreprocessError{unclosed, "this comment is not closed"};
+    Preprocessor(facts, result).run(lines);
+  } catch (const PreprocessError& error) {
+    result.error = "line " + std::to_string(error.place.line) + ": " + error.message;
+  }
+  return result;
+}
+
+std::string emit(const std::vector<Token>& tokens) {
+  std::string text;
+  int line = 0;
+  for (const Token& token : tokens) {
+    if (token.kind == TokenKind::directive) {
+      if (!text.empty() && text.back() != '\n') text += '\n';
+      text += token.text + '\n';
+    } else {
+      if (!text.empty() && text.back() != '\n') text += token.place.line == line ? ' ' : '\n';
+      text += token.text;
+    }
+    line = token.place.line;
+  }
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  return text;
+}
+
+}  // namespace shadestep::frontend

@@ -1,0 +1,386 @@
+#include "glsl-frontend/syntax_tree.h"
+
+#include <glslang/MachineIndependent/localintermediate.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+
+#include <charconv>
+#include <memory>
+#include <mutex>
+
+namespace shadestep::frontend {
+
+namespace {
+
+void initializeOnce() {
+  static std::once_flag once;
+  std::call_once(once, [] { glslang::InitializeProcess(); });
+}
+
+EShLanguage languageOf(Stage stage) {
+  switch (stage) {
+    case Stage::vertex:
+      return EShLangVertex;
+    case Stage::tess_control:
+      return EShLangTessControl;
+    case Stage::tess_eval:
+      return EShLangTessEvaluation;
+    case Stage::geometry:
+      return EShLangGeometry;
+    case Stage::fragment:
+      return EShLangFragment;
+    case Stage::compute:
+      return EShLangCompute;
+  }
+  return EShLangFragment;
+}
+
+// ---- types
+// ----------------------------------------------------------------------------------------------------
+
+class TypeReader {
+ public:
+  explicit TypeReader(const std::map<std::string, std::string>& renamed) : renamed_(renamed) {}
+
+  Type read(const glslang::TType& type) {
+    Type result;
+    result.basic = basicOf(type);
+    if (result.basic == Basic::struct_) {
+      result.members = structOf(type);
+    } else if (result.basic == Basic::opaque) {
+      result.opaque_name = opaqueName(type);
+    } else if (type.isMatrix()) {
+      result.columns = type.getMatrixCols();
+      result.rows = type.getMatrixRows();
+    } else if (type.isVector()) {
+      result.rows = type.getVectorSize();
+    }
+    if (const glslang::TArraySizes* sizes = type.getArraySizes()) {
+      for (int i = 0; i < sizes->getNumDims(); ++i) {
+        const int size = sizes->getDimSize(i);
+        result.array.push_back(size == glslang::UnsizedArraySize ? 0 : size);
+      }
+    }
+    return result;
+  }
+
+  std::string usersName(const glslang::TString& name) const {
+    const auto found = renamed_.find(name.c_str());
+    return found == renamed_.end() ? name.c_str() : found->second;
+  }
+
+ private:
+  static Basic basicOf(const glslang::TType& type) {
+    switch (type.getBasicType()) {
+      case glslang::EbtVoid:
+        return Basic::void_;
+      case glslang::EbtBool:
+        return Basic::bool_;
+      case glslang::EbtInt:
+        return Basic::int_;
+      case glslang::EbtUint:
+        return Basic::uint_;
+      case glslang::EbtFloat:
+        return Basic::float_;
+      case glslang::EbtDouble:
+        return Basic::double_;
+      case glslang::EbtInt64:
+        return Basic::int64_;
+      case glslang::EbtUint64:
+        return Basic::uint64_;
+      case glslang::EbtStruct:
+      case glslang::EbtBlock:
+        return Basic::struct_;
+      default:
+        return Basic::opaque;  // samplers, images, atomic counters; and widths that we cannot capture
+    }
+  }
+
+  static std::string opaqueName(const glslang::TType& type) {
+    if (type.getBasicType() == glslang::EbtSampler) return type.getSampler().getString().c_str();
+    if (type.getBasicType() == glslang::EbtAtomicUint) return "atomic_uint";
+    return type.getBasicTypeString().c_str();
+  }
+
+  std::shared_ptr<const StructType> structOf(const glslang::TType& type) {
+    const glslang::TTypeList* list = type.getStruct();
+    std::shared_ptr<const StructType>& known = structs_[list];
+    if (!known) {
+      auto made = std::make_shared<StructType>();
+      made->name = usersName(type.getTypeName());
+      for (const glslang::TTypeLoc& member : *list) {
+        made->members.push_back({usersName(member.type->getFieldName()), read(*member.type)});
+      }
+      known = std::move(made);
+    }
+    return known;
+  }
+
+  const std::map<std::string, std::string>& renamed_;
+  std::map<const glslang::TTypeList*, std::shared_ptr<const StructType>> structs_;
+};
+
+// ---- the tree
+// -------------------------------------------------------------------------------------------------
+
+bool isAssignment(glslang::TOperator op) {
+  return op >= glslang::EOpAssign && op <= glslang::EOpRightShiftAssign;
+}
+
+bool isIncrement(glslang::TOperator op) {
+  return op >= glslang::EOpPostIncrement && op <= glslang::EOpPreDecrement;
+}
+
+bool isAccessPath(glslang::TOperator op) {
+  return op == glslang::EOpIndexDirect || op == glslang::EOpIndexIndirect ||
+         op == glslang::EOpIndexDirectStruct || op == glslang::EOpVectorSwizzle ||
+         op == glslang::EOpMatrixSwizzle;
+}
+
+// Needs the neighbouring fragments' values: an explicit derivative or a texture's level of detail.
+bool takesDerivatives(glslang::TOperator op) {
+  if (op >= glslang::EOpDPdx && op <= glslang::EOpFwidthCoarse) return true;
+  switch (op) {
+    case glslang::EOpTextureQueryLod:
+    case glslang::EOpTexture:
+    case glslang::EOpTextureProj:
+    case glslang::EOpTextureOffset:
+    case glslang::EOpTextureProjOffset:
+    case glslang::EOpTextureClamp:
+    case glslang::EOpTextureOffsetClamp:
+    case glslang::EOpSparseTexture:
+    case glslang::EOpSparseTextureOffset:
+    case glslang::EOpSparseTextureClamp:
+    case glslang::EOpSparseTextureOffsetClamp:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool storesToMemory(glslang::TOperator op) {
+  if (op >= glslang::EOpAtomicAdd && op <= glslang::EOpAtomicCompSwap) return true;
+  if (op == glslang::EOpAtomicStore) return true;
+  if (op >= glslang::EOpAtomicCounterIncrement && op <= glslang::EOpAtomicCounterCompSwap) {
+    return op != glslang::EOpAtomicCounter;
+  }
+  if (op == glslang::EOpImageStore || op == glslang::EOpImageStoreLod || op == glslang::EOpImageAtomicStore)
+    return true;
+  return op >= glslang::EOpImageAtomicAdd && op <= glslang::EOpImageAtomicCompSwap;
+}
+
+class TreeReader {
+ public:
+  TreeReader(const AnalysedText& text, SyntaxFacts& facts)
+      : text_(text), facts_(facts), types_(text.renamed) {}
+
+  void readRoot(TIntermNode* root) {
+    glslang::TIntermAggregate* sequence = root ? root->getAsAggregate() : nullptr;
+    if (!sequence) return;
+    for (TIntermNode* node : sequence->getSequence()) {
+      glslang::TIntermAggregate* aggregate = node->getAsAggregate();
+      if (aggregate && aggregate->getOp() == glslang::EOpLinkerObjects) {
+        readGlobals(*aggregate);
+      } else if (aggregate && aggregate->getOp() == glslang::EOpFunction) {
+        readFunction(*aggregate);
+      } else {
+        read(node);
+      }
+    }
+  }
+
+ private:
+  void readGlobals(glslang::TIntermAggregate& objects) {
+    for (TIntermNode* node : objects.getSequence()) {
+      const glslang::TIntermSymbol* symbol = node->getAsSymbolNode();
+      if (!symbol) continue;
+      const Type type = types_.read(symbol->getType());
+      if (isNamelessBlock(*symbol)) {
+        for (const Member& member : type.members->members) facts_.globals[member.name] = member.type;
+      } else {
+        facts_.globals[types_.usersName(symbol->getName())] = type;
+      }
+    }
+  }
+
+  void readFunction(glslang::TIntermAggregate& function) {
+    const glslang::TString& mangled = function.getName();
+    facts_.definitions.push_back({types_.usersName(mangled.substr(0, mangled.find('('))), mangled.c_str(),
+                                  types_.read(function.getType())});
+    for (TIntermNode* node : function.getSequence()) {
+      const glslang::TIntermAggregate* aggregate = node ? node->getAsAggregate() : nullptr;
+      if (!aggregate || aggregate->getOp() != glslang::EOpParameters) read(node);
+    }
+  }
+
+  static bool isNamelessBlock(const glslang::TIntermSymbol& symbol) {
+    return symbol.getName().compare(0, 5, "anon@") == 0;
+  }
+
+  LineOrigin originOf(const TIntermNode& node) const {
+    const int line = node.getLoc().line;
+    if (line < 1 || line > static_cast<int>(text_.lines.size())) return {};
+    return text_.lines[static_cast<std::size_t>(line) - 1];
+  }
+
+  void read(TIntermNode* node) {
+    if (!node || isMention(*node)) return;
+    if (glslang::TIntermSymbol* symbol = node->getAsSymbolNode()) {
+      access(*symbol, symbol->getType(), true, false);
+    } else if (glslang::TIntermBinary* binary = node->getAsBinaryNode()) {
+      readBinary(*binary);
+    } else if (glslang::TIntermUnary* unary = node->getAsUnaryNode()) {
+      noteTraits(unary->getOp());
+      if (isIncrement(unary->getOp())) {
+        target(*unary->getOperand(), true, true);
+      } else {
+        read(unary->getOperand());
+      }
+    } else if (glslang::TIntermAggregate* aggregate = node->getAsAggregate()) {
+      readAggregate(*aggregate);
+    } else {
+      readStatement(*node);
+    }
+  }
+
+  bool isMention(TIntermNode& node) {
+    const glslang::TIntermTyped* typed = node.getAsTyped();
+    if (!typed || node.getAsAggregate()) return false;
+    const LineOrigin origin = originOf(node);
+    if (origin.mentions == kNone) return false;
+    facts_.mentioned[origin.mentions] = types_.read(typed->getType());
+    return true;
+  }
+
+  void readStatement(TIntermNode& node) {
+    if (glslang::TIntermSelection* selection = node.getAsSelectionNode()) {
+      read(selection->getCondition());
+      read(selection->getTrueBlock());
+      read(selection->getFalseBlock());
+    } else if (glslang::TIntermSwitch* choice = node.getAsSwitchNode()) {
+      read(choice->getCondition());
+      read(choice->getBody());
+    } else if (glslang::TIntermLoop* loop = node.getAsLoopNode()) {
+      read(loop->getTest());
+      read(loop->getBody());
+      read(loop->getTerminal());
+    } else if (glslang::TIntermBranch* branch = node.getAsBranchNode()) {
+      read(branch->getExpression());
+    }
+  }
+
+  void readBinary(glslang::TIntermBinary& binary) {
+    const glslang::TOperator op = binary.getOp();
+    if (isAssignment(op)) {
+      target(*binary.getLeft(), op != glslang::EOpAssign, true);
+      read(binary.getRight());
+    } else if (isAccessPath(op)) {
+      target(binary, true, false);
+    } else {
+      read(binary.getLeft());
+      read(binary.getRight());
+    }
+  }
+
+  // The variable at the root of an access path is read or written; indices on the way are read.
+  void target(glslang::TIntermTyped& node, bool is_read, bool is_written) {
+    glslang::TIntermBinary* binary = node.getAsBinaryNode();
+    if (glslang::TIntermSymbol* symbol = node.getAsSymbolNode()) {
+      access(*symbol, symbol->getType(), is_read, is_written);
+    } else if (binary && isAccessPath(binary->getOp())) {
+      glslang::TIntermSymbol* block = binary->getLeft()->getAsSymbolNode();
+      if (block && isNamelessBlock(*block)) {
+        access(*block, binary->getType(), is_read, is_written);
+      } else {
+        target(*binary->getLeft(), is_read, is_written);
+        read(binary->getRight());
+      }
+    } else {
+      read(&node);
+    }
+  }
+
+  void access(const glslang::TIntermSymbol& symbol, const glslang::TType& type, bool is_read,
+              bool is_written) {
+    VariableAccess access;
+    access.token = originOf(symbol).token;
+    access.read = is_read;
+    access.write = is_written;
+    access.symbol = symbol.getId();
+    access.of_block = isNamelessBlock(symbol);
+    access.type = types_.read(type);
+    if (access.token != kNone) facts_.accesses.push_back(std::move(access));
+  }
+
+  void readAggregate(glslang::TIntermAggregate& aggregate) {
+    const glslang::TOperator op = aggregate.getOp();
+    noteTraits(op);
+    if (op == glslang::EOpFunctionCall && aggregate.isUserDefined()) {
+      facts_.calls.push_back(
+          {originOf(aggregate).token, aggregate.getName().c_str(), types_.read(aggregate.getType())});
+    }
+    const glslang::TQualifierList& qualifiers = aggregate.getQualifierList();
+    const glslang::TIntermSequence& arguments = aggregate.getSequence();
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      const glslang::TStorageQualifier qualifier = i < qualifiers.size() ? qualifiers[i] : glslang::EvqIn;
+      glslang::TIntermTyped* argument = arguments[i] ? arguments[i]->getAsTyped() : nullptr;
+      if (argument && (qualifier == glslang::EvqOut || qualifier == glslang::EvqInOut)) {
+        target(*argument, qualifier == glslang::EvqInOut, true);
+      } else {
+        read(arguments[i]);
+      }
+    }
+  }
+
+  void noteTraits(glslang::TOperator op) {
+    facts_.uses_derivatives |= takesDerivatives(op);
+    facts_.writes_memory |= storesToMemory(op);
+  }
+
+  const AnalysedText& text_;
+  SyntaxFacts& facts_;
+  TypeReader types_;
+};
+
+// "ERROR: 0:12: 'x' : undeclared identifier" -> message and token.
+void readError(const char* log, const AnalysedText& text, SyntaxFacts& facts) {
+  std::string message = log ? log : "";
+  const std::size_t start = message.find("ERROR: ");
+  if (start != std::string::npos) message.erase(0, start + 7);
+  message = message.substr(0, message.find('\n'));
+  const std::size_t colon = message.find(':');
+  if (colon != std::string::npos) {
+    int line = 0;
+    const char* first = message.data() + colon + 1;
+    const auto [end, status] = std::from_chars(first, message.data() + message.size(), line);
+    if (status == std::errc() && line >= 1 && line <= static_cast<int>(text.lines.size())) {
+      facts.error_token = text.lines[static_cast<std::size_t>(line) - 1].token;
+      message.erase(0, static_cast<std::size_t>(end - message.data()));
+      message.erase(0, message.find_first_not_of(": "));
+    }
+  }
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  facts.error = message.empty() ? "glslang gives no reason" : message;
+}
+
+}  // namespace
+
+SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text) {
+  initializeOnce();
+  SyntaxFacts facts;
+  glslang::TShader shader(languageOf(stage));
+  const char* string = text.text.c_str();
+  shader.setStrings(&string, 1);
+  const auto messages =
+      static_cast<EShMessages>(EShMsgRelaxedErrors | EShMsgSuppressWarnings | EShMsgKeepUncalled);
+  const bool taken = shader.parse(GetDefaultResources(), text.es ? 100 : 110, false, messages);
+  if (!taken) {
+    readError(shader.getInfoLog(), text, facts);
+    return facts;
+  }
+  facts.early_fragment_tests = shader.getIntermediate()->getEarlyFragmentTests();
+  TreeReader(text, facts).readRoot(shader.getIntermediate()->getTreeRoot());
+  return facts;
+}
+
+}  // namespace shadestep::frontend

@@ -1,0 +1,53 @@
+// What glslang's syntax tree says about the analysed text, as plain facts anchored to tokens. The only place
+// that knows glslang. Internal to the front-end.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glsl-frontend/analysed_text.h"
+#include "glsl-frontend/shader.h"
+
+namespace shadestep::frontend {
+
+// A variable is read or written by the expression around this token.
+struct VariableAccess {
+  TokenIndex token = kNone;
+  bool read = false;
+  bool write = false;
+  long long symbol = 0;   // glslang's identity of the variable; of the whole block for a member
+  bool of_block = false;  // a member of a block without instance name
+  Type type;
+};
+
+struct UserCall {
+  TokenIndex close = kNone;  // the closing parenthesis
+  std::string callee;        // glslang's mangled name
+  Type type;
+};
+
+struct UserFunction {
+  std::string name;
+  std::string mangled;  // with its parameters' types
+  Type return_type;
+};
+
+struct SyntaxFacts {
+  std::vector<VariableAccess> accesses;
+  std::vector<UserCall> calls;
+  std::vector<UserFunction> definitions;  // in the text's order
+  std::map<VariableId, Type> mentioned;   // types of locals and parameters
+  std::map<std::string, Type> globals;    // types of globals and of nameless blocks' members
+  bool uses_derivatives = false;
+  bool writes_memory = false;  // through built-in functions; buffer variables are in `accesses`
+  bool early_fragment_tests = false;
+  std::string error;  // glslang's message; empty if it took the text
+  TokenIndex error_token = kNone;
+};
+
+// Parses with glslang. Thread-safe; prints nothing.
+SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text);
+
+}  // namespace shadestep::frontend

@@ -1,0 +1,131 @@
+// What a user names at a statement: a variable with an access path.
+#include <algorithm>
+#include <string>
+
+#include "glsl-frontend/lexer.h"
+#include "glsl-frontend/shader.h"
+
+namespace shadestep::frontend {
+
+namespace {
+
+struct WatchError {
+  std::string message;
+};
+
+std::string scopeNames(const Shader& shader, const Statement& statement) {
+  std::string names;
+  for (VariableId id : statement.scope) {
+    names += (names.empty() ? "" : ", ") + shader.variables[static_cast<std::size_t>(id)].name;
+  }
+  return names;
+}
+
+// The type of `base` after a swizzle like .xz, .rgb or .s; throws where there is none.
+Type swizzled(const Type& base, const std::string& letters) {
+  for (const char* set : {"xyzw", "rgba", "stpq"}) {
+    const std::string available = std::string(set).substr(0, static_cast<std::size_t>(base.rows));
+    if (letters.size() <= 4 && letters.find_first_not_of(available) == std::string::npos) {
+      Type result = base;
+      result.rows = static_cast<int>(letters.size());
+      return result;
+    }
+  }
+  throw WatchError{"a " + glslName(base) + " has no components '" + letters + "'"};
+}
+
+Type memberOf(const Type& base, const std::string& name) {
+  if (base.isVector()) return swizzled(base, name);
+  if (base.basic != Basic::struct_ || base.isArray() || !base.members) {
+    throw WatchError{"a " + glslName(base) + " has no members; '." + name + "' cannot be taken of it"};
+  }
+  std::string names;
+  for (const Member& member : base.members->members) {
+    if (member.name == name) return member.type;
+    names += (names.empty() ? "" : ", ") + member.name;
+  }
+  throw WatchError{"a " + glslName(base) + " has no member '" + name + "'; there are: " + names};
+}
+
+Type elementOf(const Type& base, const std::string& index) {
+  int size = 0;
+  Type result = base;
+  if (base.isArray()) {
+    size = base.array.front();
+    result = base.element();
+  } else if (base.isMatrix()) {
+    size = base.columns;
+    result.columns = 1;
+  } else if (base.isVector()) {
+    size = base.rows;
+    result.rows = 1;
+  } else {
+    throw WatchError{"a " + glslName(base) + " cannot be indexed"};
+  }
+  const bool digits = index.size() <= 9 && index.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits) throw WatchError{"'" + index + "' is no index; write a number"};
+  if (std::stoi(index) >= size) {
+    throw WatchError{"index " + index + " is outside of a " + glslName(base) + "; the last is " +
+                     std::to_string(size - 1)};
+  }
+  return result;
+}
+
+Watch resolve(const Shader& shader, const Statement& statement, std::string_view text) {
+  const std::vector<LexedLine> lines = lex(text);
+  if (lines.size() != 1 || lines.front().tokens.empty() ||
+      lines.front().tokens.front().token.kind != TokenKind::identifier) {
+    throw WatchError{"'" + std::string(text) + "' names no variable; write a name, as in color.rg or m[1].z"};
+  }
+  std::vector<Token> tokens;
+  for (const LexedToken& lexed : lines.front().tokens) tokens.push_back(lexed.token);
+
+  Watch watch;
+  const std::string& name = tokens.front().text;
+  for (VariableId id : statement.scope) {
+    if (shader.variables[static_cast<std::size_t>(id)].name == name) watch.variable = id;
+  }
+  if (watch.variable == kNone) {
+    const std::string names = scopeNames(shader, statement);
+    throw WatchError{"no variable '" + name + "' in scope at line " + std::to_string(statement.place.line) +
+                     (names.empty() ? "; there are none" : "; there are: " + names)};
+  }
+  watch.type = shader.variables[static_cast<std::size_t>(watch.variable)].type;
+  watch.expression = name;
+  const auto is = [&](std::size_t i, std::string_view expected) {
+    return i < tokens.size() && tokens[i].text == expected;
+  };
+  for (std::size_t i = 1; i < tokens.size();) {
+    if (is(i, ".") && i + 1 < tokens.size() && tokens[i + 1].kind == TokenKind::identifier) {
+      watch.type = memberOf(watch.type, tokens[i + 1].text);
+      watch.expression += "." + tokens[i + 1].text;
+      i += 2;
+    } else if (is(i, "[") && i + 1 < tokens.size() && is(i + 2, "]")) {
+      watch.type = elementOf(watch.type, tokens[i + 1].text);
+      watch.expression += "[" + tokens[i + 1].text + "]";
+      i += 3;
+    } else {
+      throw WatchError{"'" + std::string(text) +
+                       "' is more than a variable with members and indices; watch its parts instead"};
+    }
+  }
+  return watch;
+}
+
+}  // namespace
+
+WatchResult resolveWatch(const Shader& shader, StatementId id, std::string_view text) {
+  WatchResult result;
+  if (id < 0 || id >= static_cast<StatementId>(shader.statements.size())) {
+    result.error = "there is no such statement";
+    return result;
+  }
+  try {
+    result.watch = resolve(shader, shader.statements[static_cast<std::size_t>(id)], text);
+  } catch (const WatchError& error) {
+    result.error = error.message;
+  }
+  return result;
+}
+
+}  // namespace shadestep::frontend
