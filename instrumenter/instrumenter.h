@@ -3,7 +3,7 @@
 //
 // In every instrumented text the user's own tokens stand unchanged and in order, with insertions; the only
 // replacements are the name of `main` (wrapped, so that captured words are written at every end of the thread),
-// the names of functions cloned along a call path, and gl_FragColor (see fragment_outputs.h).
+// the names of functions cloned along a call path, and gl_FragColor (see constructs/fragment_outputs.h).
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,8 @@ enum class Event {
   function_leave,   // fell off the end; values: out parameters
   before,           // about to run a statement that calls user functions, or any loop
   statement,        // ran it; values: what it may have changed (in scope), declared variables
-  condition,        // evaluated it; first value is the outcome "" (bool; int/uint for switch), then what changed
+  condition,        // evaluated it; first value is the outcome "" (bool; int/uint for switch; true for a missing
+                    // one), then what changed. for: with what init (its variables too) or increment changed
   iteration,        // at the start of a loop's body
   return_,          // about to return; first value is the returned one, named "return", if any
   jump,             // about to break, continue or discard
@@ -80,19 +81,21 @@ struct RecordLayout {
 //   [2] number of threads that there is room for, written by the session
 //   [3] reserved
 //   then per thread (in order of start) `words available` ints:
-//     [0] words that the thread wanted to write (may exceed what fits: then run again with more room)
-//     [1],[2] gl_FragCoord.x, .y as integers (floor)   [3] mark of this invocation: 1 = ran to its end,
-//     2 = ended in a discard, 0 = neither seen
+//     [0] words that the thread wanted, these four included (may exceed what fits: then run again with more room)
+//     [1],[2] gl_FragCoord.x, .y as integers (floor; in the shader's own convention, should it say
+//     origin_upper_left)   [3] mark of this invocation: 1 = ran to its end, 2 = ended in a discard, 0 = neither seen
 //     [4...] records: id (1-based index into `records`), then its words
 // The same invocation number (its order of start + 1) is written to attachment output 0, so that the visible
 // fragment among several on one pixel is known.
 inline constexpr int kRecordingHeader = 4;
 inline constexpr int kThreadHeader = 4;
+// Values of more words than this (large arrays) are left out of records; their statement still has its record.
+inline constexpr int kWidestRecorded = 64;
 struct RecordingLayout {
   std::string block;                    // name of the storage block
   std::string pixel_uniform;            // ivec4: x, y (lower left) and width, height of the recorded pixels
   std::vector<RecordLayout> records;    // record id - 1 -> layout
-  AttachmentLayout attachment;          // words = 2: the mark, then the invocation number ("invocation", uint)
+  AttachmentLayout attachment;          // the mark, then the invocation number (field "invocation", uint)
 };
 
 struct Failure { std::string reason; };  // one sentence for the user
@@ -113,11 +116,15 @@ template <class T> using Result = std::variant<T, Failure>;
 struct Probe {
   enum class When { before, after } when = When::before;
       // after: after the statement ran (expression, declaration), or after a condition was evaluated,
-      // for all threads that evaluate it (thesis: buffered condition)
-  frontend::StatementId statement = frontend::kNone;
+      // for all threads that evaluate it (thesis: buffered condition); after the init of a `for`: before the
+      // first evaluation of its condition
+  frontend::StatementId statement = frontend::kNone;  // `before` the body block of a function = at its start
   std::vector<frontend::CallId> call_path;  // from main inwards; empty = any call (no function is cloned)
   std::vector<int> iterations;              // 0-based, per enclosing loop of the whole call path, outermost
-                                            // first; may be shorter; loops without a number: the last time wins
+                                            // first; may be shorter; loops without a number: the last time wins.
+                                            // A loop's body i and the evaluation i of its condition have number i
+                                            // (`after` on a loop: its own number comes last). With an empty call
+                                            // path: the loops of the statement's function
   std::vector<frontend::Watch> watches;
   bool outcome = false;                     // with When::after on a condition: also capture its outcome ("")
 };
@@ -137,7 +144,7 @@ Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Targe
 Result<AttachmentShader> instrumentLoops(const frontend::Shader&, const std::vector<frontend::StatementId>& loops,
                                          const Target&);
 
-// One uint field "steps": statements and conditions executed. With `statements`, one uint field per statement
+// One uint field "steps": statements executed and conditions evaluated (loops: each time). With `statements`, one uint field per statement
 // named by its id: how often it ran. (Ask in batches that fit the draw buffers.)
 Result<AttachmentShader> instrumentCount(const frontend::Shader&, const std::vector<frontend::StatementId>& statements,
                                          const Target&);
@@ -154,12 +161,13 @@ struct IsolatedInput {
 struct IsolatedShader {
   std::string text;             // the user's shader with inputs replaced; nothing is captured
   std::string baseline_text;    // same inputs and outputs, empty main: what the draw costs without the shader
-  std::string vertex_text;      // a vertex shader that draws the whole target from gl_VertexID or attribute 0
+  std::string vertex_text;      // a vertex shader for one triangle that covers the target, from gl_VertexID or,
+                                // below GLSL 1.30, from its only attribute: (-1,-1), (3,-1), (-1,3)
   std::vector<IsolatedInput> inputs;
 };
 Result<IsolatedShader> instrumentIsolate(const frontend::Shader&, const Target&);
 
-// A probe at the start of main that watches the inputs which instrumentIsolate replaces.
+// A probe at the start of main that watches the inputs which instrumentIsolate replaces (none, if that fails).
 Probe inputsProbe(const frontend::Shader&);
 
 // The user's tokens, emitted with nothing inserted: the round trip.

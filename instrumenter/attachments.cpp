@@ -1,0 +1,105 @@
+#include "instrumenter/attachments.h"
+
+#include "instrumenter/constructs/fragment_outputs.h"
+#include "instrumenter/helpers/helpers.h"
+#include "instrumenter/words.h"
+
+namespace shadestep::instrumenter {
+
+using frontend::Type;
+
+Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
+  const frontend::Shader& shader = draft.shader();
+  used_draw_buffers_ = target.used_draw_buffers;
+  capacity_ = 4 * (target.max_draw_buffers - target.used_draw_buffers);
+  if (shader.stage != frontend::Stage::fragment) {
+    failure_ = "Only fragment shaders can be captured; choose --stage fragment.";
+  } else if (draft.es() && shader.version < 300) {
+    failure_ = "A GLSL ES 1.00 shader has a single colour output, so nothing can be captured beside it.";
+  } else if (capacity_ <= 0) {
+    failure_ = "The program uses all " + std::to_string(target.max_draw_buffers) +
+               " draw buffers of this driver, so none is left to capture values in.";
+  }
+
+  // gl_FragColor and gl_FragData exclude declared outputs, and below 1.30 there are none.
+  frag_data_ = writesFragData(shader) || shader.version < 130;
+  const bool bits = draft.es() || shader.version >= 330 || target.bit_encoding;
+  layout_.carrier = !frag_data_ && bits ? Carrier::uint_attachments : Carrier::float_attachments;
+  if (frag_data_) layout_.first_frag_data = target.used_draw_buffers;
+}
+
+bool Attachments::add(const std::string& name, const Type& type) {
+  const bool floats = layout_.carrier == Carrier::float_attachments;
+  const int words = floats ? channelCount(type) : frontend::wordCount(type);
+  if (words == 0 || layout_.words + words > capacity_) return false;
+  layout_.fields.push_back(Field{name, type, layout_.words});
+  layout_.words += words;
+  return true;
+}
+
+void Attachments::declare() {
+  const bool floats = layout_.carrier == Carrier::float_attachments;
+  const std::string type = draft_.highp() + (floats ? "vec4 " : "uvec4 ");
+  if (!floats) requireBitEncoding(draft_);
+  if (floats && draft_.shader().version < 130) draft_.declare(draft_.adapt(helpers::k_attachment_halves));
+
+  for (int i = 0; i < layout_.attachments(); ++i) {
+    draft_.declare(type + buffer(i) + ";");
+    if (frag_data_) continue;
+    layout_.outputs.push_back(draft_.name("capture" + std::to_string(i)));
+    // In ES a location can be given in the text only; elsewhere it is given before linking.
+    const std::string location =
+        draft_.es() ? "layout(location = " + std::to_string(used_draw_buffers_ + i) + ") " : "";
+    draft_.declare(location + "out " + type + layout_.outputs.back() + ";");
+  }
+  if (frag_data_) replaceFragColor(draft_);
+  if (draft_.es()) locateOnlyOutput(draft_);
+}
+
+std::string Attachments::assign(std::uint32_t mark, const std::vector<std::string>& values) const {
+  std::vector<std::string> words = {markWord(mark)};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Type& type = layout_.fields[i].type;
+    const std::vector<std::string> more = layout_.carrier == Carrier::float_attachments
+                                              ? floatChannels(draft_, values[i], type)
+                                              : uintWords(values[i], type);
+    words.insert(words.end(), more.begin(), more.end());
+  }
+  return assignWords(words);
+}
+
+std::string Attachments::clear(std::uint32_t mark) const {
+  return assignWords({markWord(mark)});
+}
+
+std::string Attachments::write() const {
+  std::string text;
+  for (int i = 0; i < layout_.attachments(); ++i) {
+    const std::string output = frag_data_ ? "gl_FragData[" + std::to_string(layout_.first_frag_data + i) + "]"
+                                          : layout_.outputs[static_cast<std::size_t>(i)];
+    text += "  " + output + " = " + buffer(i) + ";\n";
+  }
+  return frag_data_ ? text + broadcastFragColor(draft_.shader(), used_draw_buffers_) : text;
+}
+
+std::string Attachments::assignWords(const std::vector<std::string>& words) const {
+  const bool floats = layout_.carrier == Carrier::float_attachments;
+  std::string text;
+  for (int i = 0; i < layout_.attachments(); ++i) {
+    if (i > 0) text += ", ";
+    text += buffer(i) + (floats ? " = vec4(" : " = uvec4(");
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+      const std::size_t word = static_cast<std::size_t>(i) * 4 + channel;
+      if (channel > 0) text += ", ";
+      text += word < words.size() ? words[word] : floats ? "0.0" : "0u";
+    }
+    text += ")";
+  }
+  return text;
+}
+
+std::string Attachments::markWord(std::uint32_t mark) const {
+  return std::to_string(mark) + (layout_.carrier == Carrier::float_attachments ? ".0" : "u");
+}
+
+}  // namespace shadestep::instrumenter

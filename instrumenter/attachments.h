@@ -1,0 +1,50 @@
+// Captured words on their way out through colour attachments: buffered in globals while the shader runs,
+// written by the new main at its end (thesis 7.1.4: outputs may be read by the shader, so they are written
+// last).
+//
+//   uvec4 sd_words0;  out uvec4 sd_capture0;          (or vec4 and gl_FragData[first_frag_data])
+//   ... sd_words0 = uvec4(3u, floatBitsToUint(a.x), floatBitsToUint(a.y), 0u) ...
+//   sd_capture0 = sd_words0;
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "instrumenter/draft.h"
+
+namespace shadestep::instrumenter {
+
+class Attachments {
+ public:
+  // Chooses the carrier by dialect, outputs of the shader and target. Check `failure` before anything else.
+  Attachments(Draft& draft, const Target& target);
+  const std::string& failure() const { return failure_; }
+
+  // Makes room for a value; false if the draw buffers do not hold it.
+  bool add(const std::string& name, const frontend::Type& type);
+  // Declares what the layout so far needs. To be called once, after the last `add`.
+  void declare();
+
+  // GLSL expressions (comma-separated assignments). `values`: one expression per added field, in order.
+  std::string assign(std::uint32_t mark, const std::vector<std::string>& values) const;
+  std::string clear(std::uint32_t mark) const;
+  // GLSL statements that write the buffered words to the outputs.
+  std::string write() const;
+
+  const AttachmentLayout& layout() const { return layout_; }
+
+ private:
+  std::string assignWords(const std::vector<std::string>& words) const;
+  std::string markWord(std::uint32_t mark) const;
+  std::string buffer(int index) const { return draft_.name("words" + std::to_string(index)); }
+
+  Draft& draft_;
+  std::string failure_;
+  AttachmentLayout layout_;
+  bool frag_data_ = false;
+  int capacity_ = 0;  // words
+  int used_draw_buffers_ = 1;
+};
+
+}  // namespace shadestep::instrumenter

@@ -1,0 +1,58 @@
+#include "instrumenter/constructs/fragment_outputs.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "instrumenter/constructs/declaration.h"
+
+namespace shadestep::instrumenter {
+
+using frontend::Token;
+
+namespace {
+
+constexpr std::string_view kFragColor = "gl_FragColor";
+constexpr std::string_view kReplacement = "gl_FragData[0]";
+
+bool mentions(const frontend::Shader& shader, std::string_view name) {
+  return std::any_of(shader.tokens.begin(), shader.tokens.end(),
+                     [name](const Token& token) { return token.text == name; });
+}
+
+}  // namespace
+
+bool writesFragData(const frontend::Shader& shader) {
+  return mentions(shader, kFragColor) || mentions(shader, "gl_FragData");
+}
+
+void replaceFragColor(Draft& draft) {
+  const std::vector<Token>& tokens = draft.shader().tokens;
+  for (std::size_t i = 0; i < tokens.size(); ++i)
+    if (tokens[i].text == kFragColor)
+      draft.edits.replace(static_cast<frontend::TokenIndex>(i), std::string(kReplacement));
+}
+
+std::string broadcastFragColor(const frontend::Shader& shader, int used_draw_buffers) {
+  std::string text;
+  if (!mentions(shader, kFragColor)) return text;
+  for (int i = 1; i < used_draw_buffers; ++i)
+    text += "  gl_FragData[" + std::to_string(i) + "] = gl_FragData[0];\n";
+  return text;
+}
+
+std::string withoutFragColor(const std::string& expression) {
+  if (!expression.starts_with(kFragColor)) return expression;
+  return std::string(kReplacement) + expression.substr(kFragColor.size());
+}
+
+void locateOnlyOutput(Draft& draft) {
+  const frontend::Shader& shader = draft.shader();
+  if (shader.outputs.size() != 1) return;
+  const frontend::Variable& output = shader.variables[static_cast<std::size_t>(shader.outputs[0])];
+  const frontend::TokenRange declaration = globalDeclaration(shader, output);
+  for (frontend::TokenIndex i = declaration.first; i < output.declared; ++i)
+    if (shader.tokens[static_cast<std::size_t>(i)].text == "layout") return;
+  draft.edits.insertBefore(declaration.first, "layout(location = 0)");
+}
+
+}  // namespace shadestep::instrumenter

@@ -1,0 +1,17 @@
+// The shader's main becomes an ordinary function that a new main calls, so that every way out of it (return,
+// its end) leads to the same place. A discard still ends the thread where it stands.
+//
+//   void main() { ... return; ... }      ->      void sd_main() { ... return; ... }
+//                                                void main() { before sd_main(); after }
+#pragma once
+
+#include <string>
+
+#include "instrumenter/draft.h"
+
+namespace shadestep::instrumenter {
+
+// `before`, `after`: complete GLSL statements.
+void wrapMain(Draft&, const std::string& before, const std::string& after);
+
+}  // namespace shadestep::instrumenter

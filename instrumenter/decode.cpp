@@ -1,0 +1,135 @@
+// Captured words -> values, and a storage buffer -> the recorded threads.
+#include <algorithm>
+#include <bit>
+#include <span>
+
+#include "instrumenter/instrumenter.h"
+#include "instrumenter/words.h"
+
+namespace shadestep::instrumenter {
+
+using frontend::Basic;
+using frontend::Component;
+using frontend::Type;
+
+namespace {
+
+// A channel that holds a small whole number as a float. What is none decodes to 0.
+std::uint32_t wholeNumber(std::uint32_t float_bits) {
+  const float value = std::bit_cast<float>(float_bits);
+  return value >= 0.0F && value <= 65535.0F ? static_cast<std::uint32_t>(value + 0.5F) : 0;
+}
+
+std::vector<std::uint32_t> wordsFromChannels(const Type& type, const std::uint32_t* channels) {
+  std::vector<std::uint32_t> words;
+  for (const Component& component : frontend::components(type)) {
+    if (component.basic == Basic::float_) {
+      words.push_back(*channels++);
+      continue;
+    }
+    Type scalar;
+    scalar.basic = component.basic;
+    for (int word = frontend::wordCount(scalar); word > 0; --word, channels += 2)
+      words.push_back(wholeNumber(channels[0]) | wholeNumber(channels[1]) << 16);
+  }
+  return words;
+}
+
+enum Mark : std::uint32_t { running = 0, finished = 1, discarded = 2 };
+
+// One thread's part of the storage block: its header, then records.
+class ThreadReader {
+ public:
+  ThreadReader(const RecordingLayout& layout, std::span<const std::uint32_t> words)
+      : layout_(layout), words_(words) {}
+
+  ThreadRecording read(std::uint32_t invocation, std::string& error) {
+    ThreadRecording thread;
+    thread.invocation = invocation;
+    thread.wanted = words_[0];
+    thread.x = static_cast<int>(words_[1]);
+    thread.y = static_cast<int>(words_[2]);
+    thread.discarded = words_[3] == discarded;
+    thread.complete = words_[3] != running && thread.wanted <= words_.size();
+    if (words_[3] > discarded) error = "the mark is " + std::to_string(words_[3]);
+    if (words_[3] != running && thread.wanted < kThreadHeader) error = "it ended without having begun";
+    if (error.empty()) readRecords(thread, error);
+    return thread;
+  }
+
+ private:
+  // A complete thread's records end exactly where it says; those of another end at the first that is missing.
+  void readRecords(ThreadRecording& thread, std::string& error) {
+    const std::size_t end = thread.complete ? thread.wanted : words_.size();
+    for (std::size_t at = kThreadHeader; at < end;) {
+      const std::uint32_t id = words_[at];
+      if (id == 0 && !thread.complete) return;
+      if (id == 0 || id > layout_.records.size()) {
+        error =
+            "record " + std::to_string(thread.records.size()) + " has the unknown id " + std::to_string(id);
+        return;
+      }
+      const RecordLayout& record = layout_.records[id - 1];
+      const std::size_t next = at + 1 + static_cast<std::size_t>(record.words);
+      if (next > end) {
+        error = "record " + std::to_string(thread.records.size()) + " is cut off";
+        return;
+      }
+      thread.records.push_back(decodeRecord(static_cast<int>(id - 1), words_.subspan(at + 1)));
+      at = next;
+    }
+  }
+
+  Record decodeRecord(int layout, std::span<const std::uint32_t> words) const {
+    Record record;
+    record.layout = layout;
+    for (const Field& field : layout_.records[static_cast<std::size_t>(layout)].fields) {
+      const auto first = words.begin() + field.first_word;
+      record.values.push_back({field.type, {first, first + frontend::wordCount(field.type)}});
+    }
+    return record;
+  }
+
+  const RecordingLayout& layout_;
+  std::span<const std::uint32_t> words_;
+};
+
+Recording refused(const std::string& reason) {
+  Recording recording;
+  recording.error =
+      "The recording cannot be read: " + reason + "; run it again, and report this if it happens again.";
+  return recording;
+}
+
+}  // namespace
+
+Value decode(const AttachmentLayout& layout, const Field& field, const std::uint32_t* words) {
+  const std::uint32_t* first = words + field.first_word;
+  if (layout.carrier == Carrier::float_attachments) return {field.type, wordsFromChannels(field.type, first)};
+  return {field.type, {first, first + frontend::wordCount(field.type)}};
+}
+
+std::uint32_t decodeMark(const AttachmentLayout& layout, const std::uint32_t* words) {
+  return layout.carrier == Carrier::float_attachments ? wholeNumber(words[0]) : words[0];
+}
+
+Recording decodeRecording(const RecordingLayout& layout, const std::vector<std::uint32_t>& words) {
+  if (words.size() < kRecordingHeader) return refused("there is no header");
+  const std::size_t room = words[1];
+  const std::size_t threads = std::min(words[0], words[2]);
+  if (threads > 0 && room < kThreadHeader) return refused("there is no room for a thread");
+  if (threads > 0 && threads > (words.size() - kRecordingHeader) / room)
+    return refused("it is shorter than it says");
+
+  Recording recording;
+  recording.started = words[0];
+  for (std::size_t i = 0; i < threads; ++i) {
+    const auto part = std::span(words).subspan(kRecordingHeader + i * room, room);
+    std::string error;
+    recording.threads.push_back(ThreadReader(layout, part).read(static_cast<std::uint32_t>(i + 1), error));
+    if (!error.empty()) return refused("in thread " + std::to_string(i) + ", " + error);
+  }
+  return recording;
+}
+
+}  // namespace shadestep::instrumenter

@@ -1,0 +1,89 @@
+#include "instrumenter/draft.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace shadestep::instrumenter {
+
+using frontend::Token;
+using frontend::TokenIndex;
+using frontend::TokenKind;
+using frontend::TokenRange;
+
+namespace {
+
+// Fresh by looking: "sd_", or else the first of "sd2_", "sd3_", ... that no identifier begins with.
+std::string freshPrefix(const frontend::Shader& shader) {
+  const std::vector<std::string> used = frontend::identifiers(shader);
+  for (int number = 1;; ++number) {
+    const std::string prefix = number == 1 ? "sd_" : "sd" + std::to_string(number) + "_";
+    const auto begins = [&](const std::string& name) { return name.starts_with(prefix); };
+    if (std::none_of(used.begin(), used.end(), begins)) return prefix;
+  }
+}
+
+void replaceAll(std::string& text, std::string_view what, std::string_view by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+Draft::Draft(const frontend::Shader& shader)
+    : edits(shader.tokens), shader_(shader), prefix_(freshPrefix(shader)) {}
+
+std::string Draft::adapt(std::string_view helper) const {
+  std::string text;
+  for (std::size_t at = 0; at < helper.size();) {
+    const std::size_t end = std::min(helper.find('\n', at), helper.size());
+    std::string_view line = helper.substr(at, end - at);
+    line = line.substr(0, line.find("//"));
+    while (line.ends_with(' ')) line.remove_suffix(1);
+    if (!line.empty()) text.append(line).append("\n");
+    at = end + 1;
+  }
+  replaceAll(text, "SD_HIGHP ", highp());
+  replaceAll(text, "sd_", prefix_);
+  return text;
+}
+
+void Draft::require(std::string_view extension) {
+  const std::string name(extension);
+  if (std::find(extensions_.begin(), extensions_.end(), name) == extensions_.end())
+    extensions_.push_back(name);
+}
+
+void Draft::declare(std::string_view text) {
+  declarations_.append(text).append("\n");
+}
+
+void Draft::append(std::string_view text) {
+  definitions_.append(text).append("\n");
+}
+
+Result<std::string> Draft::finish() {
+  const auto count = static_cast<TokenIndex>(shader_.tokens.size());
+  auto applied = edits.apply(TokenRange{0, count - 1});
+  if (const auto* conflict = std::get_if<EditConflict>(&applied))
+    return Failure{"The shader cannot be instrumented: at token " + std::to_string(conflict->token) + ", " +
+                   conflict->reason + "; please report this shader."};
+  auto& user = std::get<std::vector<Token>>(applied);
+
+  // Extensions after the user's own directives, which may switch them off; declarations after the extensions.
+  // The leading directives are never edited, so the first declaration is still where it was.
+  std::vector<Token> added;
+  const frontend::Place place;
+  for (const std::string& extension : extensions_)
+    added.push_back(Token{TokenKind::directive, "#extension " + extension + " : require", place, false});
+  if (!declarations_.empty())
+    added.push_back(Token{TokenKind::identifier, "\n" + declarations_, place, false});
+  user.insert(user.begin() + shader_.first_declaration, added.begin(), added.end());
+
+  if (!definitions_.empty()) {
+    const std::string precision = es() ? "precision highp int;\nprecision highp float;\n" : "";
+    user.push_back(Token{TokenKind::identifier, "\n" + precision + definitions_, place, false});
+  }
+  return frontend::emit(user);
+}
+
+}  // namespace shadestep::instrumenter

@@ -1,0 +1,39 @@
+// Makes room for a record and writes its id; true if its values are to be written from sd_words[sd_at] on.
+// What does not fit is only counted. The count stops far below 2^31, so that it never wraps round.
+bool sd_record(int id, int words) {
+  if (!sd_on) return false;
+  int start = sd_wanted;
+  sd_wanted = min(start + words + 1, 2000000000);
+  if (sd_wanted > sd_room) return false;
+  sd_words[sd_base + start] = id;
+  sd_at = sd_base + start + 1;
+  return true;
+}
+
+// The thread ends: mark 1 = it ran to its end, 2 = it is about to be discarded.
+bool sd_end(int mark) {
+  if (sd_on) {
+    sd_words[sd_base] = sd_wanted;
+    sd_words[sd_base + 3] = mark;
+  }
+  return true;
+}
+
+void sd_begin() {
+  sd_on = false;
+  sd_invocation = 0;
+  ivec2 place = ivec2(floor(gl_FragCoord.xy));
+  ivec2 inside = place - sd_pixel.xy;
+  if (inside.x >= 0 && inside.y >= 0 && inside.x < sd_pixel.z && inside.y < sd_pixel.w) {
+    int order = atomicAdd(sd_words[0], 1);
+    sd_invocation = order + 1;
+    if (order < sd_words[2]) {
+      sd_room = sd_words[1];
+      sd_base = 4 + order * sd_room;
+      sd_wanted = 4;
+      sd_words[sd_base + 1] = place.x;
+      sd_words[sd_base + 2] = place.y;
+      sd_on = true;
+    }
+  }
+}

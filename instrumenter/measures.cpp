@@ -1,0 +1,156 @@
+// Whole-thread measures: loops, executed statements, clock ticks.
+#include <set>
+
+#include "instrumenter/attachments.h"
+#include "instrumenter/constructs/condition.h"
+#include "instrumenter/constructs/loop.h"
+#include "instrumenter/constructs/main.h"
+#include "instrumenter/constructs/statement.h"
+#include "instrumenter/instrumenter.h"
+
+namespace shadestep::instrumenter {
+
+using frontend::Shader;
+using frontend::Statement;
+using frontend::StatementId;
+using frontend::StatementKind;
+using frontend::Type;
+
+namespace {
+
+// Numbers of the thread's run that are captured at its end. They are ints in the shader (there is no uint
+// below 1.30) and uints to the reader.
+class Measures {
+ public:
+  Measures(Draft& draft, const Target& target) : draft_(draft), attachments_(draft, target) {
+    failure_ = attachments_.failure();
+  }
+
+  // `value`: an int or uint expression at the end of the thread.
+  void add(const std::string& name, const std::string& value) {
+    Type type;
+    type.basic = frontend::Basic::uint_;
+    if (!attachments_.add(name, type) && failure_.empty())
+      failure_ =
+          "The free draw buffers do not hold so many counts at once; ask for fewer (there was no room from "
+          "'" +
+          name + "' on).";
+    values_.push_back(value);
+  }
+  // The same with a counter of its own, which starts at zero.
+  std::string addCounter(const std::string& name) {
+    const std::string counter = draft_.name("count" + std::to_string(values_.size()));
+    draft_.declare(draft_.highp() + "int " + counter + ";");
+    start_ += "  " + counter + " = 0;\n";
+    add(name, counter);
+    return counter;
+  }
+  const std::string& failure() const { return failure_; }
+
+  // `start`, `end`: further statements of the new main.
+  Result<AttachmentShader> finish(const std::string& start = "", const std::string& end = "") {
+    if (!failure_.empty()) return Failure{failure_};
+    attachments_.declare();
+    wrapMain(draft_, start_ + start,
+             end + "  " + attachments_.assign(kLaunched | kReached, values_) + ";\n" + attachments_.write());
+    auto text = draft_.finish();
+    if (auto* failure = std::get_if<Failure>(&text)) return *failure;
+    return AttachmentShader{std::move(std::get<std::string>(text)), attachments_.layout()};
+  }
+
+ private:
+  Draft& draft_;
+  Attachments attachments_;
+  std::string failure_, start_;
+  std::vector<std::string> values_;
+};
+
+bool exists(const Shader& shader, StatementId id) {
+  return id >= 0 && static_cast<std::size_t>(id) < shader.statements.size();
+}
+
+// Each time the statement runs: `count` once; loops count each evaluation of their condition.
+void countRuns(Draft& draft, Conditions& conditions, StatementId id, const std::string& count) {
+  const Shader& shader = draft.shader();
+  const StatementKind kind = statementAt(shader, id).kind;
+  if (hasCondition(kind)) {
+    if (kind == StatementKind::switch_)
+      putAround(draft.edits, shader, id, count + "++;", "");
+    else
+      conditions.putBefore(draft.edits, id, count + "++");
+  } else if (isForInit(shader, id)) {
+    putAround(draft.edits, shader, statementAt(shader, id).parent, count + "++;", "");
+  } else {
+    putAround(draft.edits, shader, id, count + "++;", "");
+  }
+}
+
+bool isCounted(const Statement& statement) {
+  return statement.function != frontend::kNone && statement.kind != StatementKind::block &&
+         statement.kind != StatementKind::case_label;
+}
+
+}  // namespace
+
+Result<AttachmentShader> instrumentLoops(const Shader& shader, const std::vector<StatementId>& loops,
+                                         const Target& target) {
+  Draft draft(shader);
+  Measures measures(draft, target);
+  // Outer loops first, as the edits need them; a statement has a smaller number than what it holds.
+  for (const StatementId loop : std::set<StatementId>(loops.begin(), loops.end())) {
+    if (!exists(shader, loop) || !isLoop(statementAt(shader, loop).kind))
+      return Failure{"Statement number " + std::to_string(loop) + " is no loop."};
+    const std::string name = std::to_string(loop);
+    const std::string entries = measures.addCounter(name + ".entries");
+    const std::string iterations = measures.addCounter(name + ".iterations");
+    const std::string longest = measures.addCounter(name + ".longest");
+    const std::string current = draft.name("current" + name);
+    draft.declare(draft.highp() + "int " + current + ";");
+    putAround(draft.edits, shader, loop, entries + "++; " + current + " = 0;", "");
+    putAtBodyStart(draft.edits, shader, statementAt(shader, loop).children.back(),
+                   iterations + "++; " + current + "++; if (" + current + " > " + longest + ") " + longest +
+                       " = " + current + ";");
+  }
+  return measures.finish();
+}
+
+Result<AttachmentShader> instrumentCount(const Shader& shader, const std::vector<StatementId>& statements,
+                                         const Target& target) {
+  Draft draft(shader);
+  Conditions conditions(draft);
+  Measures measures(draft, target);
+  if (statements.empty()) {
+    const std::string steps = measures.addCounter("steps");
+    for (std::size_t i = 0; i < shader.statements.size(); ++i)
+      if (isCounted(shader.statements[i])) countRuns(draft, conditions, static_cast<StatementId>(i), steps);
+  }
+  for (const StatementId id : std::set<StatementId>(statements.begin(), statements.end())) {
+    if (!exists(shader, id) || !isCounted(statementAt(shader, id)))
+      return Failure{"Statement number " + std::to_string(id) + " is no step that could be counted."};
+    countRuns(draft, conditions, id, measures.addCounter(std::to_string(id)));
+  }
+  return measures.finish();
+}
+
+Result<AttachmentShader> instrumentClock(const Shader& shader, const Target& target) {
+  Draft draft(shader);
+  Measures measures(draft, target);
+  if (!target.shader_clock)
+    return Failure{"This driver has no GL_ARB_shader_clock; use another method of profiling."};
+  draft.require("GL_ARB_shader_clock");
+  const std::string start = draft.name("start"), end = draft.name("end");
+  // Below 1.30 there is no uint: the low words differ by the ticks modulo 2^32, which an int holds as well.
+  if (shader.version < 130) {
+    draft.declare("int " + start + ", " + end + ";");
+    measures.add("low", end + " - " + start);
+    measures.add("high", "0");
+    return measures.finish("  " + start + " = int(clock2x32ARB().x);\n",
+                           "  " + end + " = int(clock2x32ARB().x);\n");
+  }
+  draft.declare(draft.highp() + "uvec2 " + start + ", " + end + ";");
+  measures.add("low", end + ".x - " + start + ".x");
+  measures.add("high", end + ".y - " + start + ".y - (" + end + ".x < " + start + ".x ? 1u : 0u)");
+  return measures.finish("  " + start + " = clock2x32ARB();\n", "  " + end + " = clock2x32ARB();\n");
+}
+
+}  // namespace shadestep::instrumenter

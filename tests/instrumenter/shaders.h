@@ -1,0 +1,222 @@
+// Shaders that the tests instrument: bodies that hold in every dialect, under the heads of several.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "osmesa_draw.h"
+
+namespace shadestep::instrumenter::test {
+
+struct Dialect {
+  std::string name;
+  Profile profile = Profile::core;
+  std::string head;
+  std::string color;  // what takes the place of COLOR in bodies
+  int version = 110;
+  std::vector<std::string> outputs() const {
+    return color == "gl_FragColor" ? std::vector<std::string>{} : std::vector<std::string>{color};
+  }
+  std::string text(std::string body) const {
+    for (std::size_t at = body.find("COLOR"); at != std::string::npos; at = body.find("COLOR", at))
+      body.replace(at, 5, color);
+    return head + body;
+  }
+};
+
+inline const Dialect kGlsl120{"glsl120", Profile::compatibility, "#version 120\nvarying vec2 place;\n",
+                              "gl_FragColor", 120};
+inline const Dialect kGlsl130{"glsl130", Profile::compatibility,
+                              "#version 130\nin vec2 place;\nout vec4 color;\n", "color", 130};
+inline const Dialect kGlsl330{"glsl330", Profile::core,
+                              "#version 330 core\nin vec2 place;\nout vec4 color;\n", "color", 330};
+inline const Dialect kGlsl330Compatibility{"glsl330compatibility", Profile::compatibility,
+                                           "#version 330 compatibility\nin vec2 place;\n", "gl_FragColor",
+                                           330};
+inline const Dialect kGlsl450{"glsl450", Profile::core,
+                              "#version 450 core\nin vec2 place;\nlayout(location = 0) out vec4 color;\n",
+                              "color", 450};
+inline const std::vector<Dialect> kDialects = {kGlsl120, kGlsl130, kGlsl330, kGlsl330Compatibility, kGlsl450};
+
+struct Body {
+  std::string name;
+  std::string text;
+  int version = 110;  // lowest
+};
+
+inline void PrintTo(const Dialect& dialect, std::ostream* out) {
+  *out << dialect.name;
+}
+inline void PrintTo(const Body& body, std::ostream* out) {
+  *out << body.name;
+}
+
+// `@name` in a comment names the line's statement.
+inline const Body kLoops{"loops", R"(
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  int s = 0;
+  float f = 0.5;
+  for (int i = 0; i < 10; i++) {  // @head
+    if (i == x) continue;
+    if (i > y) break;             // @leave
+    s += i;                       // @add
+    f = f * 0.5 + float(i);
+  }
+  COLOR = vec4(f, float(s), place.x, 1.0);  // @end
+}
+)"};
+
+inline const Body kNested{"nested", R"(
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  int count = 0;
+  for (int i = 0; i < 3; ++i) {
+    int j = 0;
+    while (j < x) {               // @while
+      j++;
+      if (j == 2) continue;
+      count += i * j;             // @inner
+      if (count > 20) break;
+    }
+    do count--;                   // @down
+    while (count > y);
+    for (;;) if (count++ > 5) break;  // @forever
+  }
+  COLOR = vec4(float(count), 0.0, 0.0, 1.0);  // @end
+}
+)"};
+
+inline const Body kFunctions{"functions", R"(
+float twist(float a, inout float b);
+int half_of(int v) {
+  if (v > 3) return v / 2;  // @halve
+  return v;
+}
+void split(in int v, out int low, out int high) {
+  low = v - (v / 4) * 4;
+  high = v / 4;             // @split
+}
+float bias = 0.25;
+void bump() { bias += 1.0; if (bias > 3.0) return; bias *= 2.0; }
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  float b = 1.0;
+  float r = twist(float(x), b) + twist(float(y), b);  // @twice
+  int low, high = 9;
+  split(x, low, high);      // @call
+  int h = y;
+  for (int i = 0; i < 3; i++)
+    h = half_of(h + i);     // @halves
+  if (half_of(h) == 2) bump();
+  else bump(), bump();
+  COLOR = vec4(r, float(low * 8 + high), float(h), b + bias);  // @end
+}
+float twist(float a, inout float b) {
+  b += a;
+  if (b > 6.0) return b;
+  for (int k = 0; k < 2; k++) b *= 2.0;  // @double
+  return a - b;
+}
+)"};
+
+inline const Body kConditions{"conditions", R"(
+int calls = 0;
+bool odd(int v) { calls++; return v - (v / 2) * 2 == 1; }
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  int n = x;
+  vec2 seen = vec2(0.0);
+  if (n++ < 4)              // @first
+    seen.x = 1.0;
+  else if (odd(n) && odd(y))
+    seen.x = 2.0;
+  else
+    seen.x = 3.0;
+  bool stop = false;
+  while (!stop && n-- > 3)  // @while
+    if (odd(n)) seen.y += 1.0; else { seen.y += 0.5; stop = y > 8; }
+  do { if (odd(n + y)) break; n += 2; } while (n < 9);
+  COLOR = vec4(seen, float(n), float(calls));  // @end
+}
+)"};
+
+inline const Body kDiscard{"discard", R"(
+void keep(int v) {
+  if (v == 7) discard;
+  if (v > 20) { discard; }
+}
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  COLOR = vec4(1.0);
+  for (int i = 0; i < 4; i++) {
+    if (i == x) discard;
+    keep(x + y + i);        // @keep
+    COLOR.r += float(i);
+  }
+  if (y == 3) return;
+  COLOR.gb = place;         // @end
+}
+)"};
+
+inline const Body kValues{"values", R"(
+struct Ray { vec3 origin; float step_size[2]; bool hit; };
+Ray advance(Ray ray, float t) {
+  ray.origin += t * vec3(1.0, 2.0, 4.0);
+  ray.step_size[1] = t;
+  ray.hit = ray.origin.x > 4.0;
+  return ray;
+}
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  Ray ray;
+  ray.origin = vec3(0.0); ray.step_size[0] = 0.5; ray.step_size[1] = 0.0; ray.hit = false;
+  ray = advance(ray, float(x));
+  mat2 m = mat2(1.0, 2.0, 3.0, float(y)), inverse_m = m;
+  m[1].y *= 0.5; inverse_m = m * m;
+  int big = x * 65536 + y - 40000000, least = -2147483647 - 1;
+  bvec2 flags = bvec2(x > y, ray.hit);
+  COLOR = vec4(ray.origin.xy, m[1].y, inverse_m[0][1]);  // @end
+}
+)"};
+
+inline const Body kSwitch{"switch", R"(
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  int r = 0;
+  for (int i = 0; i < 3; i++) {
+    switch (x - i) {        // @select
+      case 0: r += 1;
+      case 1: r += 10; break;
+      case 2: { if (y > 4) break; r += 100; }
+      default: r += y; if (y == 2) continue;
+    }
+    r++;                    // @behind
+  }
+  uint u = uint(y);
+  switch (u) { case 3u: r = -r; break; default: break; }
+  COLOR = vec4(float(r), 0.0, 0.0, 1.0);  // @end
+}
+)",
+                          130};
+
+inline const std::vector<Body> kBodies = {kLoops,   kNested, kFunctions, kConditions,
+                                          kDiscard, kValues, kSwitch};
+
+// Analyses a text that is known to be good.
+inline frontend::Shader analysed(const std::string& text) {
+  frontend::Analysis analysis = frontend::analyse(frontend::Stage::fragment, {text}, {});
+  if (!analysis.shader) throw std::runtime_error(analysis.error + "\n" + text);
+  return std::move(*analysis.shader);
+}
+
+// The innermost statement on the line that is named by a comment: first or, with `last`, last on it.
+inline frontend::StatementId named(const frontend::Shader& shader, const std::string& name) {
+  for (std::size_t line = 0; line < shader.lines.size(); ++line)
+    if (shader.lines[line].ends_with("@" + name))
+      return frontend::statementsAt(shader, static_cast<int>(line) + 1).front();
+  throw std::runtime_error("no @" + name);
+}
+
+}  // namespace shadestep::instrumenter::test
