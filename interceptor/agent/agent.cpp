@@ -1,0 +1,203 @@
+// The debugger's end inside the program under debug: counts frames and draws, stops where the session wants to
+// look, and serves it there on the stopped thread. Throws nothing, starts no thread; while the session has asked
+// for nothing, a draw costs two counters and a comparison. Whatever happens to the connection, the program runs on.
+#include <pthread.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <climits>
+#include <cstdlib>
+#include <mutex>
+#include <string>
+
+#include "interceptor/agent/stop.h"
+#include "interceptor/calls/hooks.h"
+#include "interceptor/dispatch/dispatch.h"
+#include "wire/channel.h"
+#include "wire/status_page.h"
+
+namespace shadestep::agent {
+namespace {
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+
+// Counts also without a session, and in a forked child, which must not write to its parent's page.
+constinit wire::StatusPage own_page{};
+constinit std::atomic<wire::StatusPage*> page{&own_page};
+
+// Where the session wants the program to stop; read without a lock on every draw.
+constinit std::atomic<bool> armed{false};
+constinit std::atomic<bool> report_frames{false};
+constinit std::atomic<std::uint64_t> stop_frame{0};
+constinit std::atomic<std::uint64_t> stop_draw{0};
+
+// The connection; one thread speaks at a time, from a stop to the Resume. Never destroyed: exit handlers of the
+// program may still draw.
+struct Connection {
+  std::mutex mutex;
+  wire::Channel channel;
+  wire::SharedMemory page_memory;
+};
+Connection& connection() {
+  static auto* one = new Connection;
+  return *one;
+}
+
+bool reached(std::uint64_t frame, std::uint64_t draw) {
+  const std::uint64_t wanted = stop_frame.load(kRelaxed);
+  return frame > wanted || (frame == wanted && draw >= stop_draw.load(kRelaxed));
+}
+
+bool send(wire::Channel& channel, const wire::MessageT& message, int bulk = -1) {
+  flatbuffers::FlatBufferBuilder builder;
+  builder.Finish(wire::Message::Pack(builder, &message));
+  return channel.send({builder.GetBufferPointer(), builder.GetSize()}, bulk);
+}
+
+template <class Body>
+bool sendBody(wire::Channel& channel, Body&& body) {
+  wire::MessageT message;
+  message.body.Set(std::forward<Body>(body));
+  return send(channel, message);
+}
+
+void obey(const wire::ResumeT& resume) {
+  stop_frame.store(resume.frame, kRelaxed);
+  stop_draw.store(resume.draw, kRelaxed);
+  report_frames.store(resume.report_frames, kRelaxed);
+  armed.store(resume.stop, kRelaxed);
+}
+
+void letGo(wire::Channel& channel) {
+  armed.store(false, kRelaxed);
+  channel.close();
+}
+
+// Answers requests until Resume. `answer` maps a request to a Reply.
+template <class Answer>
+void serve(wire::Channel& channel, Answer answer) {
+  while (true) {
+    wire::Packet packet;
+    if (channel.receive(packet) != wire::Received::message) return letGo(channel);
+    wire::MessageT request;
+    wire::GetMessage(packet.bytes.data())->UnPackTo(&request);
+    if (const wire::ResumeT* resume = request.body.AsResume()) return obey(*resume);
+    if (const wire::QuitT* quit = request.body.AsQuit()) _exit(quit->status);
+    const Reply reply = answer(request);
+    if (!send(channel, reply.message, reply.bulk ? reply.bulk.descriptor() : -1)) return letGo(channel);
+  }
+}
+
+Reply notAtADraw(const wire::MessageT&) {
+  wire::FailedT failure;
+  failure.kind = wire::ErrorKind::Unsupported;
+  failure.text = "the program is between two frames, not in a draw call; resume it to a draw first";
+  Reply reply;
+  reply.message.body.Set(std::move(failure));
+  return reply;
+}
+
+void stopAtDraw(const calls::DrawCall& call, std::uint64_t frame, std::uint64_t draw) {
+  Connection& session = connection();
+  const std::lock_guard lock(session.mutex);
+  // Another thread may have stopped meanwhile, and the session asked for something else.
+  if (!armed.load(kRelaxed) || !reached(frame, draw) || dispatch::currentContext() == nullptr) return;
+  Stop stop(call);
+  if (!sendBody(session.channel, stop.announcement(frame, draw))) return letGo(session.channel);
+  serve(session.channel, [&](const wire::MessageT& request) { return stop.answer(request); });
+}
+
+void stopAtFrameEnd(std::uint64_t frame, std::uint64_t draws) {
+  Connection& session = connection();
+  const std::lock_guard lock(session.mutex);
+  if (!armed.load(kRelaxed)) return;
+  wire::FrameEndedT ended;
+  ended.frame = frame;
+  ended.draws = draws;
+  if (!sendBody(session.channel, std::move(ended))) return letGo(session.channel);
+  serve(session.channel, notAtADraw);
+}
+
+std::string programPath() {
+  char path[PATH_MAX];
+  const ssize_t length = readlink("/proc/self/exe", path, sizeof path);
+  return length > 0 ? std::string(path, static_cast<std::size_t>(length)) : std::string();
+}
+
+// A forked child has its parent's socket and page: it leaves both alone.
+void inForkedChild() {
+  armed.store(false, kRelaxed);
+  const wire::StatusPage* parents = page.load(kRelaxed);
+  own_page.frame.store(parents->frame.load(kRelaxed), kRelaxed);
+  own_page.draw.store(parents->draw.load(kRelaxed), kRelaxed);
+  own_page.draws.store(parents->draws.load(kRelaxed), kRelaxed);
+  page.store(&own_page, kRelaxed);
+  connection().channel.close();
+}
+
+}  // namespace
+
+void onLoad() {
+  const char* socket = std::getenv(wire::kSocketVariable);
+  if (socket == nullptr || *socket == '\0') return;
+  Connection& session = connection();
+  session.page_memory = wire::SharedMemory::create("shadestep-status", sizeof(wire::StatusPage));
+  session.channel = wire::Channel::connect(socket);
+  if (!session.page_memory || !session.channel.open()) return session.channel.close();
+  page.store(new (session.page_memory.data()) wire::StatusPage{}, kRelaxed);
+  pthread_atfork(nullptr, nullptr, inForkedChild);
+
+  wire::HelloT hello;
+  hello.protocol = wire::kProtocol;
+  hello.pid = getpid();
+  hello.program = programPath();
+  wire::MessageT message;
+  message.body.Set(std::move(hello));
+  if (!send(session.channel, message, session.page_memory.descriptor())) return letGo(session.channel);
+  serve(session.channel, notAtADraw);
+}
+
+void onExit() {
+  Connection& session = connection();
+  const std::lock_guard lock(session.mutex);
+  armed.store(false, kRelaxed);
+  if (!session.channel.open()) return;
+  const wire::StatusPage& status = *page.load(kRelaxed);
+  wire::ExitingT exiting;
+  exiting.frames = status.frame.load(kRelaxed);
+  exiting.draws = status.draw.load(kRelaxed);
+  sendBody(session.channel, std::move(exiting));
+  session.channel.close();
+}
+
+}  // namespace shadestep::agent
+
+namespace shadestep::calls {
+
+void onDraw(const DrawCall& call) {
+  wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
+  const std::uint64_t draw = status.draw.fetch_add(1, agent::kRelaxed);
+  status.draws.fetch_add(1, agent::kRelaxed);
+  if (!agent::armed.load(agent::kRelaxed)) return;
+  const std::uint64_t frame = status.frame.load(agent::kRelaxed);
+  if (agent::reached(frame, draw)) agent::stopAtDraw(call, frame, draw);
+}
+
+void onPresent() {
+  wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
+  const std::uint64_t draws = status.draw.exchange(0, agent::kRelaxed);
+  const std::uint64_t frame = status.frame.fetch_add(1, agent::kRelaxed);
+  if (!agent::armed.load(agent::kRelaxed)) return;
+  // The frame that was asked for is over: its draw was missed, or the session wants to hear of every frame.
+  const std::uint64_t wanted = agent::stop_frame.load(agent::kRelaxed);
+  if (frame >= wanted || agent::report_frames.load(agent::kRelaxed)) agent::stopAtFrameEnd(frame, draws);
+}
+
+void onContextCurrent() {
+  if (dispatch::currentContext() != nullptr) agent::page.load(agent::kRelaxed)->used_gl.store(1, agent::kRelaxed);
+}
+
+GLenum replace_glGetError() { return guard::programError(); }
+
+}  // namespace shadestep::calls

@@ -1,0 +1,179 @@
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#include "interceptor/agent/describe.h"
+
+#include <array>
+
+#include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/errors.h"
+
+namespace shadestep::agent {
+namespace {
+
+using dispatch::gl;
+
+GLint integer(GLenum name) {
+  GLint value = 0;
+  gl().GetIntegerv(name, &value);
+  return value;
+}
+
+std::string text(GLenum name) {
+  const GLubyte* value = gl().GetString(name);
+  return value != nullptr ? reinterpret_cast<const char*>(value) : "";
+}
+
+// Why there is no program to debug, or "".
+std::string programReason(const DrawFacts& facts) {
+  if (facts.program == 0 && facts.pipeline != 0) {
+    return "the draw uses a program pipeline object, which cannot be debugged yet";
+  }
+  if (facts.program == 0) return "the draw uses no GLSL program (fixed function or assembly programs)";
+  GLint deleted = GL_FALSE;
+  gl().GetProgramiv(facts.program, GL_DELETE_STATUS, &deleted);
+  if (deleted) {
+    return "the program was deleted while in use: putting another in its place would end it for good";
+  }
+  GLint linked = GL_FALSE;
+  gl().GetProgramiv(facts.program, GL_LINK_STATUS, &linked);
+  if (!linked) return "the program's last link failed: the draw uses what an earlier link made";
+  return facts.linked->reason;
+}
+
+// Queries count what replays draw; their end and start again is not the program's query any more.
+bool queryActive(const guard::ContextFacts& facts) {
+  struct Target {
+    GLenum target;
+    bool exists;
+  };
+  const std::array targets = {
+      Target{GL_SAMPLES_PASSED, !facts.es},
+      Target{GL_ANY_SAMPLES_PASSED, facts.atLeast(33, 30)},
+      Target{GL_ANY_SAMPLES_PASSED_CONSERVATIVE, facts.atLeast(43, 30)},
+      Target{GL_PRIMITIVES_GENERATED, facts.atLeast(30, 32)},
+      Target{GL_VERTICES_SUBMITTED, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_PRIMITIVES_SUBMITTED, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_VERTEX_SHADER_INVOCATIONS, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_GEOMETRY_SHADER_INVOCATIONS, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_FRAGMENT_SHADER_INVOCATIONS, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_CLIPPING_INPUT_PRIMITIVES, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_CLIPPING_OUTPUT_PRIMITIVES, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+  };
+  for (const Target& entry : targets) {
+    GLint current = 0;
+    if (entry.exists) gl().GetQueryiv(entry.target, GL_CURRENT_QUERY, &current);
+    if (current != 0) return true;
+  }
+  return false;
+}
+
+bool feedbackUnpausable(const guard::ContextFacts& facts) {
+  if (facts.pausesTransformFeedback() || !facts.atLeast(30, 0)) return false;
+  GLint active = 0;  // before OpenGL 4.0 only the buffer binding tells
+  gl().GetIntegeri_v(GL_TRANSFORM_FEEDBACK_BUFFER_BINDING, 0, &active);
+  return active != 0;
+}
+
+// Why the draw cannot be replayed here, or "".
+std::string replayReason(const calls::DrawCall& call, const guard::ContextFacts& facts) {
+  if (call.replay == nullptr) return std::string(call.name) + " draws cannot be replayed yet";
+  if (facts.compatibility()) {
+    if (integer(GL_LIST_INDEX) != 0) return "the call is being compiled into a display list";
+    if (integer(GL_RENDER_MODE) != GL_RENDER) return "the draw is made for selection or feedback and writes no pixels";
+  }
+  if (facts.atLeast(30, 30) && gl().IsEnabled(GL_RASTERIZER_DISCARD)) {
+    return "rasterization is switched off (GL_RASTERIZER_DISCARD): no fragment shader runs";
+  }
+  if (queryActive(facts)) return "a query that counts what is drawn is active, which a replay would change";
+  if (feedbackUnpausable(facts)) return "transform feedback buffers are bound, and this driver cannot pause the feedback";
+  return "";
+}
+
+wire::Provider provider() {
+  switch (dispatch::currentProvider()) {
+    case dispatch::Provider::glx: return wire::Provider::Glx;
+    case dispatch::Provider::egl: return wire::Provider::Egl;
+    case dispatch::Provider::osmesa: return wire::Provider::OsMesa;
+    case dispatch::Provider::none: break;
+  }
+  return wire::Provider::None;
+}
+
+wire::Stage stage(GLenum shader_type) {
+  switch (shader_type) {
+    case GL_VERTEX_SHADER: return wire::Stage::Vertex;
+    case GL_TESS_CONTROL_SHADER: return wire::Stage::TessControl;
+    case GL_TESS_EVALUATION_SHADER: return wire::Stage::TessEval;
+    case GL_GEOMETRY_SHADER: return wire::Stage::Geometry;
+    case GL_COMPUTE_SHADER: return wire::Stage::Compute;
+    default: return wire::Stage::Fragment;
+  }
+}
+
+std::vector<std::unique_ptr<wire::ShaderStageT>> stages(const calls::LinkedProgram& linked) {
+  std::vector<std::unique_ptr<wire::ShaderStageT>> result;
+  for (const calls::LinkedShader& shader : linked.shaders) {
+    auto entry = std::make_unique<wire::ShaderStageT>();
+    entry->stage = stage(shader.type);
+    entry->shader = shader.shader != 0 && gl().IsShader(shader.shader) ? shader.shader : 0;
+    entry->reason = shader.source->reason;
+    for (const std::string& string : shader.source->strings) {
+      entry->sources.push_back(std::make_unique<wire::TextT>());
+      entry->sources.back()->text = string;
+    }
+    for (const auto& other : result) {
+      if (other->stage != entry->stage) continue;
+      other->reason = entry->reason = "the stage is linked from several shader objects, which cannot be debugged yet";
+    }
+    result.push_back(std::move(entry));
+  }
+  return result;
+}
+
+}  // namespace
+
+DrawFacts drawFacts(const calls::DrawCall& call) {
+  DrawFacts facts;
+  facts.context = guard::contextFacts();
+  const guard::ContextFacts& context = facts.context;
+  if (context.atLeast(20, 20)) facts.program = static_cast<GLuint>(integer(GL_CURRENT_PROGRAM));
+  if (context.atLeast(41, 31) || context.has("GL_ARB_separate_shader_objects")) {
+    facts.pipeline = static_cast<GLuint>(integer(GL_PROGRAM_PIPELINE_BINDING));
+  }
+  facts.linked = calls::linkedProgram(facts.program);
+  facts.program_reason = programReason(facts);
+  facts.target = capture::drawTarget(context);
+  if (facts.target.reason.empty()) facts.target.reason = replayReason(call, context);
+  guard::clearErrors();
+  return facts;
+}
+
+wire::DrawT describe(const DrawFacts& facts) {
+  wire::DrawT draw;
+  const guard::ContextFacts& context = facts.context;
+  draw.provider = provider();
+  draw.version = text(GL_VERSION);
+  draw.renderer = text(GL_RENDERER);
+  draw.vendor = text(GL_VENDOR);
+  draw.glsl_version = context.atLeast(20, 20) ? text(GL_SHADING_LANGUAGE_VERSION) : "";
+  draw.es = context.es;
+  draw.core = context.core;
+  draw.major = context.major;
+  draw.minor = context.minor;
+  draw.extensions = context.extensions;
+  draw.program = facts.program;
+  draw.pipeline = facts.pipeline;
+  draw.program_reason = facts.program_reason;
+  if (facts.program != 0) draw.stages = stages(*facts.linked);
+  draw.framebuffer = facts.target.framebuffer;
+  draw.target_reason = facts.target.reason;
+  draw.viewport.resize(4);
+  gl().GetIntegerv(GL_VIEWPORT, draw.viewport.data());
+  draw.width = facts.target.width;
+  draw.height = facts.target.height;
+  draw.draw_buffers = facts.target.draw_buffers;
+  draw.max_draw_buffers = context.max_draw_buffers;
+  draw.max_storage_blocks = context.max_storage_blocks;
+  return draw;
+}
+
+}  // namespace shadestep::agent

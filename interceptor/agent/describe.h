@@ -1,0 +1,25 @@
+// What a draw would be carried out with: the answer to Describe.
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#pragma once
+
+#include "interceptor/calls/hooks.h"
+#include "interceptor/calls/tracking.h"
+#include "interceptor/capture/draw_target.h"
+#include "interceptor/guard/context_facts.h"
+#include "wire/messages_generated.h"
+
+namespace shadestep::agent {
+
+// The facts of one stop, asked once.
+struct DrawFacts {
+  guard::ContextFacts context;
+  GLuint program = 0, pipeline = 0;
+  std::string program_reason;  // why there is nothing to debug ("" if there is)
+  std::shared_ptr<const calls::LinkedProgram> linked;
+  capture::DrawTarget target;  // its reason also says why this draw cannot be replayed
+};
+
+DrawFacts drawFacts(const calls::DrawCall&);
+wire::DrawT describe(const DrawFacts&);
+
+}  // namespace shadestep::agent

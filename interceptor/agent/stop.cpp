@@ -1,0 +1,325 @@
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#include "interceptor/agent/stop.h"
+
+#include <time.h>
+
+#include <algorithm>
+
+#include "interceptor/dispatch/dispatch.h"
+
+namespace shadestep::agent {
+namespace {
+
+using dispatch::gl;
+using guard::OrRefusal;
+using guard::Refusal;
+
+template <class Body>
+Reply success(Body&& body) {
+  Reply reply;
+  reply.message.body.Set(std::forward<Body>(body));
+  return reply;
+}
+
+Reply failed(const Refusal& refusal) {
+  wire::FailedT failure;
+  failure.kind = refusal.kind;
+  failure.text = refusal.text;
+  return success(std::move(failure));
+}
+
+template <class Body>
+Reply replied(OrRefusal<Body>&& result) {
+  if (const auto* refusal = std::get_if<Refusal>(&result)) return failed(*refusal);
+  return success(std::get<Body>(std::move(result)));
+}
+
+std::uint64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
+}
+
+// The time of one draw on the CPU's clock: nothing is in flight before it, all is done after it.
+template <class Draw>
+std::uint64_t timed(Draw draw) {
+  gl().Finish();
+  const std::uint64_t start = now();
+  draw();
+  gl().Finish();
+  return now() - start;
+}
+
+// Hands out ranges of the memory that travels beside Executed; aligned for any word.
+class BulkLayout {
+ public:
+  std::unique_ptr<wire::BulkRangeT> add(std::uint64_t bytes) {
+    auto range = std::make_unique<wire::BulkRangeT>();
+    range->offset = total_;
+    range->bytes = bytes;
+    total_ += (bytes + 63) / 64 * 64;
+    return range;
+  }
+  // False: there is no memory for it.
+  bool create(wire::SharedMemory& memory) const {
+    if (total_ == 0) return true;
+    memory = wire::SharedMemory::create("shadestep-values", total_);
+    return static_cast<bool>(memory);
+  }
+
+ private:
+  std::uint64_t total_ = 0;
+};
+
+Refusal noMemory() { return guard::limit("there is not enough shared memory for the captured values"); }
+
+std::uint64_t pixelBytes(int width, int height) {
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 16;
+}
+
+// State of the program under which capture buffers would not hold what the shader wrote.
+Refusal captureObstacle(const guard::ContextFacts& facts, const std::vector<capture::CaptureBuffer>& captures) {
+  if (captures.empty() || facts.es) return {};
+  const auto is_float = [](const capture::CaptureBuffer& buffer) { return buffer.format == wire::CaptureFormat::Float4; };
+  if (!std::all_of(captures.begin(), captures.end(), is_float) && gl().IsEnabled(GL_COLOR_LOGIC_OP)) {
+    return guard::unsupported("a logic operation on colours is active (GL_COLOR_LOGIC_OP), which would change captured words");
+  }
+  if (facts.compatibility() && std::any_of(captures.begin(), captures.end(), is_float) && facts.atLeast(30, 0)) {
+    GLint clamp = GL_FALSE;
+    gl().GetIntegerv(GL_CLAMP_FRAGMENT_COLOR, &clamp);
+    if (clamp == GL_TRUE) {
+      return guard::unsupported("fragment colours are clamped (GL_CLAMP_FRAGMENT_COLOR), which would change captured floats");
+    }
+  }
+  if (!facts.indexedDrawBuffers() && gl().IsEnabled(GL_BLEND)) {
+    return guard::unsupported("blending is on, and this driver cannot switch it off for capture buffers alone");
+  }
+  return {};
+}
+
+std::vector<int> locations(const std::vector<capture::CaptureBuffer>& captures) {
+  std::vector<int> result;
+  for (const capture::CaptureBuffer& buffer : captures) result.push_back(buffer.location);
+  return result;
+}
+
+Refusal useProgram(const replay::ProgramCopy& copy, const wire::ExecuteT& request) {
+  gl().UseProgram(copy.program);
+  replay::selectSubroutines(copy.subroutines);
+  const std::string problem = replay::setUniforms(copy.program, request.uniforms);
+  return problem.empty() ? Refusal{} : guard::unsupported(problem);
+}
+
+}  // namespace
+
+Stop::Stop(const calls::DrawCall& call) : call_(call) {}
+
+wire::StoppedT Stop::announcement(std::uint64_t frame, std::uint64_t draw) const {
+  wire::StoppedT stopped;
+  stopped.frame = frame;
+  stopped.draw = draw;
+  stopped.call = call_.name;
+  stopped.mode = call_.mode;
+  stopped.count = call_.count;
+  stopped.instances = call_.instances;
+  return stopped;
+}
+
+Reply Stop::answer(const wire::MessageT& request) {
+  const guard::SilenceGuard silence(facts().context);
+  Reply reply;
+  if (request.body.AsDescribe() != nullptr) {
+    reply = success(describe(facts()));
+  } else if (const wire::PrepareT* prepare_request = request.body.AsPrepare()) {
+    reply = replied(prepare(*prepare_request));
+  } else if (const wire::ExecuteT* execute_request = request.body.AsExecute()) {
+    wire::SharedMemory bulk;
+    reply = replied(execute(*execute_request, bulk));
+    if (reply.message.body.AsExecuted() != nullptr) reply.bulk = std::move(bulk);
+  } else if (const wire::ReleaseT* release = request.body.AsRelease()) {
+    prepared_.erase(release->handle);
+    reply = success(wire::DoneT{});
+  } else {
+    reply = failed(guard::internal("the agent does not know this request; use interceptor and shadestep of one build"));
+  }
+  guard::clearErrors();
+  return reply;
+}
+
+const DrawFacts& Stop::facts() {
+  if (!facts_) facts_ = drawFacts(call_);
+  return *facts_;
+}
+
+// ---- Prepare -------------------------------------------------------------------------------------------------
+
+OrRefusal<wire::PreparedT> Stop::prepare(const wire::PrepareT& request) {
+  if (!facts().program_reason.empty()) return guard::unsupported(facts().program_reason);
+  if (request.geometry == wire::Geometry::Replay && !facts().target.reason.empty()) {
+    return guard::unsupported(facts().target.reason);
+  }
+  const guard::ProgramGuard program(facts().context);
+  const replay::Original original{facts().program, *facts().linked, facts().target};
+  auto result = replay::copyProgram(facts().context, original, request, shaders_);
+  if (const auto* refusal = std::get_if<Refusal>(&result)) return *refusal;
+  auto copy = std::get<std::unique_ptr<replay::ProgramCopy>>(std::move(result));
+  wire::PreparedT prepared;
+  prepared.handle = next_handle_++;
+  prepared.log = copy->log;
+  prepared.compile_ns = copy->compile_ns;
+  prepared_[prepared.handle] = std::move(copy);
+  return prepared;
+}
+
+// ---- Execute -------------------------------------------------------------------------------------------------
+
+OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::SharedMemory& bulk) {
+  const auto found = prepared_.find(request.handle);
+  if (found == prepared_.end()) return guard::internal("there is no prepared program with this handle at this stop");
+  const replay::ProgramCopy& copy = *found->second;
+  const bool wants_storage = request.storage_words > 0 || !request.storage.empty();
+  if (wants_storage && !facts().context.storageBuffers()) {
+    return guard::unsupported("this driver has no storage buffers (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object)");
+  }
+  const guard::ProgramGuard program(facts().context);
+  const guard::FramebufferGuard framebuffers(facts().context);
+  std::optional<guard::StorageBindingGuard> storage;
+  if (wants_storage) storage.emplace(std::max(copy.storage_binding, 0));
+  return copy.covering ? cover(copy, request, bulk) : replay(copy, framebuffers, request, bulk);
+}
+
+// Every repeat starts from the program's own target contents, zeroed captures and a fresh storage buffer: all
+// repeats, and the program's own draw afterwards, see the same. None of that is in the measured time.
+OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const guard::FramebufferGuard& framebuffers,
+                                        const wire::ExecuteT& request, wire::SharedMemory& bulk) {
+  const guard::ContextFacts& context = facts().context;
+  const capture::DrawTarget& target = facts().target;
+  if (Refusal refusal = captureObstacle(context, copy.captures); !refusal.text.empty()) return refusal;
+  if (shadow_ == nullptr) shadow_ = std::make_unique<capture::Shadow>(context, target);
+  if (request.compare) {
+    if (Refusal refusal = drawReference(framebuffers); !refusal.text.empty()) return refusal;
+  }
+
+  wire::ExecutedT executed;
+  executed.width = target.width;
+  executed.height = target.height;
+  {
+    const guard::CaptureBufferGuard plain(context, locations(copy.captures));
+    if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
+    for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
+      if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
+      if (Refusal refusal = shadow_->fill(framebuffers, copy.captures); !refusal.text.empty()) return refusal;
+      executed.times_ns.push_back(timed([&] { call_.replay(call_.arguments); }));
+    }
+    if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
+  }
+
+  BulkLayout layout;
+  if (request.read_captures) {
+    for (std::size_t i = 0; i < copy.captures.size(); ++i) {
+      executed.attachments.push_back(layout.add(pixelBytes(target.width, target.height)));
+    }
+  }
+  if (request.read_outputs) {
+    for (std::size_t i = 0; i < target.colors.size(); ++i) {
+      executed.outputs.push_back(layout.add(pixelBytes(target.width, target.height)));
+    }
+  }
+  executed.storage = layout.add(storage_.words() * 4);
+  if (!layout.create(bulk)) return noMemory();
+
+  const guard::PixelReadGuard reading(context);
+  for (std::size_t i = 0; i < executed.attachments.size(); ++i) {
+    shadow_->readCapture(copy.captures[i], bulk.data() + executed.attachments[i]->offset);
+  }
+  for (std::size_t i = 0; i < executed.outputs.size(); ++i) {
+    shadow_->readOutput(target.colors[i], bulk.data() + executed.outputs[i]->offset);
+  }
+  if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
+  if (request.compare) {
+    if (Refusal refusal = compareWithReference(executed); !refusal.text.empty()) return refusal;
+  } else {
+    executed.compare_reason = "not asked for";
+  }
+  if (guard::clearErrors()) return guard::internal("the driver refused to read the captured values back");
+  return executed;
+}
+
+// The triangle covers the target whole and unblended: repeats need nothing in between.
+OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wire::ExecuteT& request,
+                                       wire::SharedMemory& bulk) {
+  const guard::ContextFacts& context = facts().context;
+  const int size = request.covering_size;
+  if (size <= 0) return guard::unsupported("the covering target needs a size of at least one pixel");
+  if (!copy.captures.empty()) return guard::unsupported("a covering triangle has no capture buffers");
+  if (!context.vertexArrays() || !context.framebufferObjects()) {
+    return guard::unsupported("the driver has no framebuffer and vertex array objects, which a covering triangle needs");
+  }
+
+  wire::ExecutedT executed;
+  executed.width = executed.height = size;
+  executed.compare_reason = "a covering triangle has no original outputs";
+  {
+    const guard::VertexArrayGuard vertices;
+    const guard::PlainRasterGuard raster(context, size);
+    if (Refusal refusal = covering_.bind(size, copy.colour_outputs, copy.position_attribute); !refusal.text.empty()) {
+      return refusal;
+    }
+    if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
+    for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
+      executed.times_ns.push_back(timed([&] { covering_.draw(); }));
+    }
+    if (guard::clearErrors()) return guard::internal("the driver answers the covering draw with an error");
+  }
+
+  BulkLayout layout;
+  for (int i = 0; request.read_outputs && i < copy.colour_outputs; ++i) {
+    executed.outputs.push_back(layout.add(pixelBytes(size, size)));
+  }
+  executed.storage = layout.add(storage_.words() * 4);
+  if (!layout.create(bulk)) return noMemory();
+  const guard::PixelReadGuard reading(context);
+  for (std::size_t i = 0; i < executed.outputs.size(); ++i) {
+    covering_.readOutput(static_cast<int>(i), bulk.data() + executed.outputs[i]->offset);
+  }
+  if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
+  return executed;
+}
+
+// What the program's own program draws, once a stop. The program is current.
+Refusal Stop::drawReference(const guard::FramebufferGuard& framebuffers) {
+  if (reference_) return {};
+  if (Refusal refusal = shadow_->fill(framebuffers, {}); !refusal.text.empty()) return refusal;
+  call_.replay(call_.arguments);
+  if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
+  auto reference = wire::SharedMemory::create("shadestep-reference", std::max<std::size_t>(shadow_->originalsBytes(), 1));
+  if (!reference) return noMemory();
+  const guard::PixelReadGuard reading(facts().context);
+  shadow_->readOriginals(reference.data());
+  reference_ = std::move(reference);
+  return {};
+}
+
+Refusal Stop::compareWithReference(wire::ExecutedT& executed) const {
+  const auto drawn = wire::SharedMemory::create("shadestep-outputs", reference_.size());
+  if (!drawn) return noMemory();
+  shadow_->readOriginals(drawn.data());
+  const capture::Shadow::Difference difference = shadow_->compare(reference_.data(), drawn.data());
+  executed.compared = difference.compared;
+  executed.differing = difference.differing;
+  if (difference.compared == 0) executed.compare_reason = "the draw writes to no buffer";
+  return {};
+}
+
+Refusal Stop::resetStorage(const replay::ProgramCopy& copy, const wire::ExecuteT& request) {
+  if (request.storage_words == 0 && request.storage.empty()) {
+    storage_.release();
+    return {};
+  }
+  Refusal refusal = storage_.reset(request.storage, request.storage_words);
+  if (refusal.text.empty() && copy.storage_binding >= 0) storage_.bind(copy.storage_binding);
+  return refusal;
+}
+
+}  // namespace shadestep::agent

@@ -1,0 +1,59 @@
+// One stop at a draw call: carries out the session's requests on the stopped thread. Between two requests the
+// program's GL state is as the program left it; only objects of the agent's own live until the stop ends.
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "interceptor/agent/describe.h"
+#include "interceptor/capture/covering.h"
+#include "interceptor/capture/shadow.h"
+#include "interceptor/capture/storage.h"
+#include "interceptor/guard/errors.h"
+#include "interceptor/guard/guards.h"
+#include "interceptor/guard/refusal.h"
+#include "interceptor/replay/program_copy.h"
+#include "wire/channel.h"
+#include "wire/messages_generated.h"
+
+namespace shadestep::agent {
+
+struct Reply {
+  wire::MessageT message;
+  wire::SharedMemory bulk;  // empty: none
+};
+
+class Stop {
+ public:
+  explicit Stop(const calls::DrawCall&);
+
+  wire::StoppedT announcement(std::uint64_t frame, std::uint64_t draw) const;
+  // Answers Describe, Prepare, Execute and Release; Failed to anything else.
+  Reply answer(const wire::MessageT& request);
+
+ private:
+  guard::OrRefusal<wire::PreparedT> prepare(const wire::PrepareT&);
+  guard::OrRefusal<wire::ExecutedT> execute(const wire::ExecuteT&, wire::SharedMemory& bulk);
+  guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy&, const guard::FramebufferGuard&,
+                                           const wire::ExecuteT&, wire::SharedMemory& bulk);
+  guard::OrRefusal<wire::ExecutedT> cover(const replay::ProgramCopy&, const wire::ExecuteT&, wire::SharedMemory& bulk);
+  guard::Refusal drawReference(const guard::FramebufferGuard&);
+  guard::Refusal compareWithReference(wire::ExecutedT&) const;
+  guard::Refusal resetStorage(const replay::ProgramCopy&, const wire::ExecuteT&);
+  const DrawFacts& facts();
+
+  const calls::DrawCall& call_;
+  guard::ErrorGuard errors_;
+  std::optional<DrawFacts> facts_;
+  std::unique_ptr<capture::Shadow> shadow_;
+  wire::SharedMemory reference_;  // the original outputs of the program's own program
+  capture::Covering covering_;
+  capture::StorageBuffer storage_;
+  replay::ShaderCache shaders_;
+  std::map<std::uint32_t, std::unique_ptr<replay::ProgramCopy>> prepared_;
+  std::uint32_t next_handle_ = 1;
+};
+
+}  // namespace shadestep::agent

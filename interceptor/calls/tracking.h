@@ -1,0 +1,38 @@
+// The source text of the program's shaders, as it was when each program was linked.
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#pragma once
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace shadestep::calls {
+
+// The strings of glShaderSource at a shader's last compile.
+struct CompiledSource {
+  std::vector<std::string> strings;
+  std::string reason;  // why there is no text ("" if there is): SPIR-V, a binary
+};
+
+struct LinkedShader {
+  GLuint shader = 0;  // name at link time; may be gone or reused since
+  GLenum type = 0;    // GL_FRAGMENT_SHADER, ...
+  std::shared_ptr<const CompiledSource> source;  // never null
+};
+
+// What a program was linked from. Later deletes, detaches and new sources do not change it.
+struct LinkedProgram {
+  std::vector<LinkedShader> shaders;
+  // glBindAttribLocation as it stood at the link: an instrumented copy may have attributes alive that the
+  // original link dropped.
+  std::vector<std::pair<std::string, GLuint>> attributes;
+  std::string reason;  // why its shaders are not known ("" if they are): a program binary, made before we looked
+};
+
+// Of a program of the current context's share group. Never null.
+std::shared_ptr<const LinkedProgram> linkedProgram(GLuint program);
+
+}  // namespace shadestep::calls

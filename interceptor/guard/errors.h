@@ -1,0 +1,25 @@
+// The program's GL error flags. What the program caused before a stop it is still told after it; what the
+// agent caused it never hears of.
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#pragma once
+
+#include <GL/gl.h>
+
+namespace shadestep::guard {
+
+// For as long as it lives the driver's error flag is the agent's; errors that were pending at its start wait.
+class ErrorGuard {
+ public:
+  ErrorGuard();
+  ~ErrorGuard();
+  ErrorGuard(const ErrorGuard&) = delete;
+  ErrorGuard& operator=(const ErrorGuard&) = delete;
+};
+
+// What glGetError tells the program: a waiting error of its current context first, then the driver's.
+GLenum programError();
+
+// Empties the driver's error flag; true if there was an error.
+bool clearErrors();
+
+}  // namespace shadestep::guard

@@ -1,0 +1,158 @@
+// State that the agent touches, put back at the end of a scope. Every class saves one group when it is made and
+// restores it when it goes; nothing relies on attribute stacks, which core profiles lack and which can be full.
+// Method: Strengert 2010, 7.1.5.
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#pragma once
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <deque>
+#include <vector>
+
+#include "interceptor/guard/context_facts.h"
+
+namespace shadestep::guard {
+
+// A capability of glEnable for all indices that it has.
+class CapabilityGuard {
+ public:
+  // `indices` > 0: the capability is indexed (viewports, draw buffers).
+  explicit CapabilityGuard(GLenum capability, int indices = 0);
+  ~CapabilityGuard() { restore(); }
+  CapabilityGuard(const CapabilityGuard&) = delete;
+  CapabilityGuard& operator=(const CapabilityGuard&) = delete;
+  void disable() const;
+  void restore() const;
+
+ private:
+  GLenum capability_;
+  bool indexed_;
+  std::vector<GLboolean> enabled_;
+};
+
+// Framebuffer and renderbuffer bindings, and what clips or converts clears and blits: the scissor test and
+// GL_FRAMEBUFFER_SRGB.
+class FramebufferGuard {
+ public:
+  explicit FramebufferGuard(const ContextFacts&);
+  ~FramebufferGuard();
+  void unclip() const;
+  void clipAsProgram() const;
+  GLuint drawFramebuffer() const { return draw_; }
+
+ private:
+  bool srgb_switch_;
+  CapabilityGuard scissor_;
+  CapabilityGuard srgb_;
+  GLuint draw_ = 0, read_ = 0, renderbuffer_ = 0;
+};
+
+// The current program with its subroutine selection, which glUseProgram forgets; active transform feedback
+// pauses meanwhile.
+class ProgramGuard {
+ public:
+  explicit ProgramGuard(const ContextFacts&);
+  ~ProgramGuard();
+  GLuint program() const { return program_; }
+
+ private:
+  struct StageSubroutines {
+    GLenum stage;
+    std::vector<GLuint> indices;
+  };
+  GLuint program_ = 0;
+  bool paused_ = false;
+  std::vector<StageSubroutines> subroutines_;
+};
+
+// All that changes what glReadPixels stores: pixel pack state and buffer, pixel transfer, read clamping. Set to
+// "values as they are, rows without gaps" while it lives.
+class PixelReadGuard {
+ public:
+  explicit PixelReadGuard(const ContextFacts&);
+  ~PixelReadGuard();
+
+ private:
+  struct Parameter {
+    GLenum name;
+    GLfloat value;
+  };
+  bool clamps_ = false, transfers_ = false;
+  GLint clamp_ = 0;
+  GLint pack_buffer_ = 0;
+  bool has_pack_buffer_ = false;
+  std::vector<Parameter> pack_, transfer_;
+};
+
+// Blending and colour mask of single draw buffers; while it lives they write unblended and unmasked.
+class CaptureBufferGuard {
+ public:
+  CaptureBufferGuard(const ContextFacts&, const std::vector<int>& draw_buffers);
+  ~CaptureBufferGuard();
+
+ private:
+  struct Saved {
+    GLuint index;
+    GLboolean blend;
+    GLboolean mask[4];
+  };
+  std::vector<Saved> saved_;
+};
+
+// The generic storage buffer binding and one indexed one.
+class StorageBindingGuard {
+ public:
+  explicit StorageBindingGuard(int index);
+  ~StorageBindingGuard();
+
+ private:
+  GLuint index_;
+  GLint generic_ = 0, buffer_ = 0;
+  GLint64 start_ = 0, size_ = 0;
+};
+
+// Vertex array and array buffer bindings.
+class VertexArrayGuard {
+ public:
+  VertexArrayGuard();
+  ~VertexArrayGuard();
+
+ private:
+  GLint vertex_array_ = 0, array_buffer_ = 0;
+};
+
+// Everything between a triangle and a plain target: tests, blending, masks, culling, viewports. While it lives a
+// triangle is rasterized whole and written as it is to a target of `size` x `size`.
+class PlainRasterGuard {
+ public:
+  PlainRasterGuard(const ContextFacts&, int size);
+  ~PlainRasterGuard();
+
+ private:
+  struct Viewport {
+    GLfloat box[4];
+  };
+  struct Mask {
+    GLboolean write[4];
+  };
+  void disable(GLenum capability, int indices = 0);
+
+  bool viewport_arrays_, indexed_masks_, polygon_mode_;
+  std::vector<Viewport> viewports_;
+  std::vector<Mask> masks_;
+  GLint polygon_modes_[2] = {};
+  std::deque<CapabilityGuard> capabilities_;  // stays in place: guards neither move nor copy
+};
+
+// Debug messages: none are made while it lives, so that no callback of the program hears of the agent's calls.
+class SilenceGuard {
+ public:
+  explicit SilenceGuard(const ContextFacts&);
+  ~SilenceGuard();
+
+ private:
+  bool was_enabled_ = false;
+};
+
+}  // namespace shadestep::guard

@@ -1,0 +1,381 @@
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#include "interceptor/replay/program_copy.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <set>
+
+#include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/errors.h"
+
+namespace shadestep::replay {
+namespace {
+
+using dispatch::gl;
+using guard::OrRefusal;
+using guard::Refusal;
+
+std::uint64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
+}
+
+const char* stageWord(GLenum type) {
+  switch (type) {
+    case GL_VERTEX_SHADER: return "vertex";
+    case GL_TESS_CONTROL_SHADER: return "tessellation control";
+    case GL_TESS_EVALUATION_SHADER: return "tessellation evaluation";
+    case GL_GEOMETRY_SHADER: return "geometry";
+    case GL_FRAGMENT_SHADER: return "fragment";
+    default: return "compute";
+  }
+}
+
+std::string shaderLog(GLuint shader) {
+  GLint length = 0;
+  gl().GetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  GLsizei written = 0;
+  gl().GetShaderInfoLog(shader, length, &written, log.data());
+  log.resize(static_cast<std::size_t>(written));
+  return log;
+}
+
+std::string programLog(GLuint program) {
+  GLint length = 0;
+  gl().GetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  GLsizei written = 0;
+  gl().GetProgramInfoLog(program, length, &written, log.data());
+  log.resize(static_cast<std::size_t>(written));
+  return log;
+}
+
+// 0 and the log if it does not compile.
+GLuint compile(GLenum type, const std::vector<std::string>& strings, std::string& log) {
+  const GLuint shader = gl().CreateShader(type);
+  std::vector<const GLchar*> texts;
+  std::vector<GLint> lengths;
+  for (const std::string& text : strings) {
+    texts.push_back(text.data());
+    lengths.push_back(static_cast<GLint>(text.size()));
+  }
+  gl().ShaderSource(shader, static_cast<GLsizei>(texts.size()), texts.data(), lengths.data());
+  gl().CompileShader(shader);
+  GLint compiled = GL_FALSE;
+  gl().GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled) return shader;
+  log = shaderLog(shader);
+  gl().DeleteShader(shader);
+  return 0;
+}
+
+Refusal doesNotCompile(GLenum type, const std::string& log) {
+  return {wire::ErrorKind::Compile, std::string("the ") + stageWord(type) + " shader does not compile: " + log};
+}
+
+// A shader made for one copy: it lives as long as the copy has it attached.
+struct OwnShader {
+  GLuint name = 0;
+  ~OwnShader() {
+    if (name != 0) gl().DeleteShader(name);
+  }
+};
+
+// ---- before the link: what has to stay where it is -------------------------------------------------------------
+
+void bindAttributes(const Original& original, GLuint copy) {
+  for (const auto& [name, location] : original.linked.attributes) gl().BindAttribLocation(copy, location, name.c_str());
+  GLint count = 0;
+  GLint longest = 0;
+  gl().GetProgramiv(original.program, GL_ACTIVE_ATTRIBUTES, &count);
+  gl().GetProgramiv(original.program, GL_ACTIVE_ATTRIBUTE_MAX_LENGTH, &longest);
+  std::vector<GLchar> name(static_cast<std::size_t>(longest) + 1);
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    GLint size = 0;
+    GLenum type = 0;
+    gl().GetActiveAttrib(original.program, i, static_cast<GLsizei>(name.size()), nullptr, &size, &type, name.data());
+    const GLint location = gl().GetAttribLocation(original.program, name.data());
+    if (location >= 0) gl().BindAttribLocation(copy, static_cast<GLuint>(location), name.data());  // built-ins: -1
+  }
+}
+
+void copyFeedbackVaryings(GLuint original, GLuint copy) {
+  GLint count = 0;
+  gl().GetProgramiv(original, GL_TRANSFORM_FEEDBACK_VARYINGS, &count);
+  if (guard::clearErrors() || count <= 0) return;
+  GLint longest = 0;
+  GLint mode = GL_INTERLEAVED_ATTRIBS;
+  gl().GetProgramiv(original, GL_TRANSFORM_FEEDBACK_VARYING_MAX_LENGTH, &longest);
+  gl().GetProgramiv(original, GL_TRANSFORM_FEEDBACK_BUFFER_MODE, &mode);
+  std::vector<std::string> names;
+  std::vector<const GLchar*> pointers;
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    std::string name(static_cast<std::size_t>(longest) + 1, '\0');
+    GLsizei length = 0;
+    GLsizei size = 0;
+    GLenum type = 0;
+    gl().GetTransformFeedbackVarying(original, i, longest, &length, &size, &type, name.data());
+    name.resize(static_cast<std::size_t>(length));
+    names.push_back(std::move(name));
+  }
+  for (const std::string& name : names) pointers.push_back(name.c_str());
+  gl().TransformFeedbackVaryings(copy, count, pointers.data(), static_cast<GLenum>(mode));
+}
+
+// The shader's own outputs keep their locations. Returns the locations taken.
+OrRefusal<std::set<int>> bindUserOutputs(const Original& original, GLuint copy, const std::vector<std::string>& outputs,
+                                         int most) {
+  std::set<int> taken;
+  const bool indexed = dispatch::available("glGetFragDataIndex") && dispatch::available("glBindFragDataLocationIndexed");
+  for (const std::string& name : outputs) {
+    const GLint location = gl().GetFragDataLocation(original.program, name.c_str());
+    if (location < 0) continue;  // not written by the original
+    if (indexed && gl().GetFragDataIndex(original.program, name.c_str()) > 0) {
+      return guard::unsupported("the shader uses dual-source blending, which leaves no draw buffer to capture into");
+    }
+    if (dispatch::available("glBindFragDataLocation")) {
+      gl().BindFragDataLocation(copy, static_cast<GLuint>(location), name.c_str());
+    }
+    taken.insert(location);
+    for (int i = 1; i < most; ++i) {  // an array's other elements
+      const GLint element = gl().GetFragDataLocation(original.program, (name + "[" + std::to_string(i) + "]").c_str());
+      if (element < 0) break;
+      taken.insert(element);
+    }
+  }
+  guard::clearErrors();
+  return taken;
+}
+
+// Finds a draw buffer for every capture: neither an output of the shader nor a buffer of the program's framebuffer.
+OrRefusal<std::vector<capture::CaptureBuffer>> placeCaptures(const guard::ContextFacts& facts, const Original& original,
+                                                             const wire::PrepareT& request, std::set<int> taken) {
+  std::vector<capture::CaptureBuffer> placed;
+  for (const auto& color : original.target.colors) taken.insert(color.draw_buffer);
+  int next = 0;
+  for (std::size_t i = 0; i < request.captures.size(); ++i) {
+    if (request.first_frag_data >= 0) {
+      next = request.first_frag_data + static_cast<int>(i);
+      if (taken.count(next) != 0) {
+        return guard::limit("gl_FragData[" + std::to_string(next) + "] is a buffer of the program's own framebuffer");
+      }
+    } else {
+      while (taken.count(next) != 0) ++next;
+    }
+    if (next >= facts.max_draw_buffers) {
+      return guard::limit(std::to_string(request.captures.size()) + " capture buffers beside the program's own are more than the " +
+                          std::to_string(facts.max_draw_buffers) + " draw buffers of this driver; capture less at once");
+    }
+    taken.insert(next);
+    placed.push_back({next, request.captures[i]->format});
+  }
+  return placed;
+}
+
+// ---- after the link ------------------------------------------------------------------------------------------
+
+// The driver has the last word on where an output is: a layout in the text overrides what was bound.
+Refusal confirmCaptures(const wire::PrepareT& request, ProgramCopy& copy) {
+  for (std::size_t i = 0; i < request.captures.size(); ++i) {
+    const std::string& name = request.captures[i]->name;
+    if (name.empty() || request.first_frag_data >= 0) continue;
+    const GLint location = gl().GetFragDataLocation(copy.program, name.c_str());
+    if (location < 0) return {wire::ErrorKind::Link, "the linked program has no output " + name + " to capture"};
+    copy.captures[i].location = location;
+  }
+  return {};
+}
+
+// Gives the debugger's storage block a binding that no block of the program has.
+Refusal placeStorageBlock(const guard::ContextFacts& facts, const std::string& block, ProgramCopy& copy) {
+  if (block.empty()) return {};
+  if (!facts.storageBuffers()) {
+    return guard::unsupported("this driver has no storage buffers (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object)");
+  }
+  const GLuint index = gl().GetProgramResourceIndex(copy.program, GL_SHADER_STORAGE_BLOCK, block.c_str());
+  if (index == GL_INVALID_INDEX) return {};  // the compiler found that nothing is written to it
+  constexpr GLenum kBinding = GL_BUFFER_BINDING;
+  const auto bindingOf = [&](GLuint resource) {
+    GLint binding = 0;
+    gl().GetProgramResourceiv(copy.program, GL_SHADER_STORAGE_BLOCK, resource, 1, &kBinding, 1, nullptr, &binding);
+    return binding;
+  };
+  if (!dispatch::available("glShaderStorageBlockBinding") || facts.es) {
+    copy.storage_binding = bindingOf(index);
+    return {};
+  }
+  std::set<int> taken;
+  GLint blocks = 0;
+  gl().GetProgramInterfaceiv(copy.program, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &blocks);
+  for (GLuint i = 0; i < static_cast<GLuint>(blocks); ++i) {
+    if (i != index) taken.insert(bindingOf(i));
+  }
+  int binding = facts.max_storage_bindings - 1;
+  while (binding >= 0 && taken.count(binding) != 0) --binding;
+  if (binding < 0) return guard::limit("the program uses all storage buffer bindings of this driver");
+  gl().ShaderStorageBlockBinding(copy.program, index, static_cast<GLuint>(binding));
+  copy.storage_binding = binding;
+  return {};
+}
+
+// The one attribute of a covering triangle's vertex shader, wherever the linker put it.
+int positionAttribute(GLuint program) {
+  GLint count = 0;
+  gl().GetProgramiv(program, GL_ACTIVE_ATTRIBUTES, &count);
+  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+    GLchar name[256] = {};
+    GLint size = 0;
+    GLenum type = 0;
+    gl().GetActiveAttrib(program, i, sizeof name, nullptr, &size, &type, name);
+    if (std::string(name) == "gl_Vertex") return 0;
+    const GLint location = gl().GetAttribLocation(program, name);
+    if (location >= 0) return location;
+  }
+  return -1;
+}
+
+// Attaches every stage of the original, with the requested one replaced.
+Refusal attachReplayStages(const Original& original, const wire::PrepareT& request, ShaderCache& cache, GLuint copy) {
+  const GLenum replaced = shaderType(request.stage);
+  const auto of_stage = std::count_if(original.linked.shaders.begin(), original.linked.shaders.end(),
+                                      [&](const calls::LinkedShader& shader) { return shader.type == replaced; });
+  if (of_stage == 0) {
+    return guard::unsupported(std::string("the program has no ") + stageWord(replaced) + " shader");
+  }
+  if (of_stage > 1 && !request.text.empty()) {
+    return guard::unsupported(std::string("the ") + stageWord(replaced) +
+                              " stage is linked from several shader objects, which cannot be debugged yet");
+  }
+  std::string log;
+  for (const calls::LinkedShader& shader : original.linked.shaders) {
+    if (shader.type == replaced && !request.text.empty()) {
+      const OwnShader own{compile(replaced, {request.text}, log)};
+      if (own.name == 0) return doesNotCompile(replaced, log);
+      gl().AttachShader(copy, own.name);
+      continue;
+    }
+    if (!shader.source->reason.empty()) {
+      return guard::unsupported(std::string("the ") + stageWord(shader.type) +
+                                " shader cannot be rebuilt: " + shader.source->reason);
+    }
+    const GLuint same = cache.shader(shader.type, shader.source, log);
+    if (same == 0) return doesNotCompile(shader.type, log);
+    gl().AttachShader(copy, same);
+  }
+  return {};
+}
+
+Refusal attachCoveringStages(const wire::PrepareT& request, GLuint copy) {
+  std::string log;
+  const OwnShader vertex{compile(GL_VERTEX_SHADER, {request.vertex_text}, log)};
+  if (vertex.name == 0) return doesNotCompile(GL_VERTEX_SHADER, log);
+  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, {request.text}, log)};
+  if (fragment.name == 0) return doesNotCompile(GL_FRAGMENT_SHADER, log);
+  gl().AttachShader(copy, vertex.name);
+  gl().AttachShader(copy, fragment.name);
+  return {};
+}
+
+void detachAll(GLuint program) {
+  GLuint attached[32];
+  GLsizei count = 0;
+  gl().GetAttachedShaders(program, 32, &count, attached);
+  for (GLsizei i = 0; i < count; ++i) gl().DetachShader(program, attached[i]);
+}
+
+Refusal link(ProgramCopy& copy) {
+  gl().LinkProgram(copy.program);
+  GLint linked = GL_FALSE;
+  gl().GetProgramiv(copy.program, GL_LINK_STATUS, &linked);
+  copy.log = programLog(copy.program);
+  detachAll(copy.program);
+  if (linked) return {};
+  return {wire::ErrorKind::Link, "the instrumented program does not link: " + copy.log};
+}
+
+Refusal build(const guard::ContextFacts& facts, const Original& original, const wire::PrepareT& request,
+              ShaderCache& cache, ProgramCopy& copy) {
+  copy.program = gl().CreateProgram();
+  copy.covering = request.geometry == wire::Geometry::Covering;
+  const Refusal attached = copy.covering ? attachCoveringStages(request, copy.program)
+                                         : attachReplayStages(original, request, cache, copy.program);
+  if (!attached.text.empty()) return attached;
+
+  if (!copy.covering) {
+    bindAttributes(original, copy.program);
+    copyFeedbackVaryings(original.program, copy.program);
+  }
+  std::set<int> taken;
+  if (!request.user_outputs.empty()) {
+    auto locations = bindUserOutputs(original, copy.program, request.user_outputs, facts.max_draw_buffers);
+    if (auto* refusal = std::get_if<Refusal>(&locations)) return *refusal;
+    taken = std::get<std::set<int>>(locations);
+  }
+  copy.colour_outputs = taken.empty() ? 1 : *taken.rbegin() + 1;
+  auto captures = placeCaptures(facts, original, request, taken);
+  if (auto* refusal = std::get_if<Refusal>(&captures)) return *refusal;
+  copy.captures = std::get<std::vector<capture::CaptureBuffer>>(std::move(captures));
+  for (std::size_t i = 0; i < request.captures.size(); ++i) {
+    const std::string& name = request.captures[i]->name;
+    if (!name.empty() && dispatch::available("glBindFragDataLocation")) {
+      gl().BindFragDataLocation(copy.program, static_cast<GLuint>(copy.captures[i].location), name.c_str());
+    }
+  }
+
+  if (const Refusal failed = link(copy); !failed.text.empty()) return failed;
+  if (const Refusal failed = confirmCaptures(request, copy); !failed.text.empty()) return failed;
+  if (const Refusal failed = placeStorageBlock(facts, request.storage_block, copy); !failed.text.empty()) return failed;
+  if (copy.covering) {
+    copy.position_attribute = positionAttribute(copy.program);
+  } else {
+    copy.subroutines = subroutineChoices(facts, original.program, copy.program);
+  }
+  const std::string not_copied = copyUniforms(facts, original.program, copy.program);
+  if (!not_copied.empty()) return guard::unsupported(not_copied);
+  return {};
+}
+
+}  // namespace
+
+GLuint ShaderCache::shader(GLenum type, const std::shared_ptr<const calls::CompiledSource>& source, std::string& log) {
+  const auto found = shaders_.find(source);
+  if (found != shaders_.end()) return found->second;
+  const GLuint shader = compile(type, source->strings, log);
+  if (shader != 0) shaders_[source] = shader;
+  return shader;
+}
+
+ShaderCache::~ShaderCache() {
+  for (const auto& [source, shader] : shaders_) gl().DeleteShader(shader);
+}
+
+ProgramCopy::~ProgramCopy() {
+  if (program != 0) gl().DeleteProgram(program);
+}
+
+GLenum shaderType(wire::Stage stage) {
+  switch (stage) {
+    case wire::Stage::Vertex: return GL_VERTEX_SHADER;
+    case wire::Stage::TessControl: return GL_TESS_CONTROL_SHADER;
+    case wire::Stage::TessEval: return GL_TESS_EVALUATION_SHADER;
+    case wire::Stage::Geometry: return GL_GEOMETRY_SHADER;
+    case wire::Stage::Fragment: return GL_FRAGMENT_SHADER;
+    case wire::Stage::Compute: return GL_COMPUTE_SHADER;
+  }
+  return 0;
+}
+
+OrRefusal<std::unique_ptr<ProgramCopy>> copyProgram(const guard::ContextFacts& facts, const Original& original,
+                                                   const wire::PrepareT& request, ShaderCache& cache) {
+  auto copy = std::make_unique<ProgramCopy>();
+  const std::uint64_t start = now();
+  Refusal failed = build(facts, original, request, cache, *copy);
+  copy->compile_ns = now() - start;
+  if (!failed.text.empty()) return failed;
+  return copy;
+}
+
+}  // namespace shadestep::replay
