@@ -1,6 +1,7 @@
-// The debugger's end inside the program under debug: counts frames and draws, stops where the session wants to
-// look, and serves it there on the stopped thread. Throws nothing, starts no thread; while the session has asked
-// for nothing, a draw costs two counters and a comparison. Whatever happens to the connection, the program runs on.
+// The debugger's end inside the program under debug: counts frames and draws, stops where the session wants
+// to look, and serves it there on the stopped thread. Throws nothing, starts no thread; while the session has
+// asked for nothing, a draw costs two counters and a comparison. Whatever happens to the connection, the
+// program runs on.
 #include <pthread.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include "interceptor/agent/stop.h"
 #include "interceptor/calls/hooks.h"
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/errors.h"
 #include "wire/channel.h"
 #include "wire/status_page.h"
 
@@ -32,8 +34,8 @@ constinit std::atomic<bool> report_frames{false};
 constinit std::atomic<std::uint64_t> stop_frame{0};
 constinit std::atomic<std::uint64_t> stop_draw{0};
 
-// The connection; one thread speaks at a time, from a stop to the Resume. Never destroyed: exit handlers of the
-// program may still draw.
+// The connection; one thread speaks at a time, from a stop to the Resume. Never destroyed: exit handlers of
+// the program may still draw.
 struct Connection {
   std::mutex mutex;
   wire::Channel channel;
@@ -195,9 +197,16 @@ void onPresent() {
 }
 
 void onContextCurrent() {
-  if (dispatch::currentContext() != nullptr) agent::page.load(agent::kRelaxed)->used_gl.store(1, agent::kRelaxed);
+  if (dispatch::currentContext() != nullptr)
+    agent::page.load(agent::kRelaxed)->used_gl.store(1, agent::kRelaxed);
 }
 
-GLenum replace_glGetError() { return guard::programError(); }
+void onContextGone(const dispatch::Context& context) {
+  guard::forgetErrors(&context);
+}
+
+GLenum replace_glGetError() {
+  return guard::programError();
+}
 
 }  // namespace shadestep::calls

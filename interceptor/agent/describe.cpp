@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/agent/describe.h"
 
 #include <array>
@@ -52,11 +53,16 @@ bool queryActive(const guard::ContextFacts& facts) {
       Target{GL_PRIMITIVES_GENERATED, facts.atLeast(30, 32)},
       Target{GL_VERTICES_SUBMITTED, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
       Target{GL_PRIMITIVES_SUBMITTED, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_VERTEX_SHADER_INVOCATIONS, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_GEOMETRY_SHADER_INVOCATIONS, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_FRAGMENT_SHADER_INVOCATIONS, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_CLIPPING_INPUT_PRIMITIVES, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_CLIPPING_OUTPUT_PRIMITIVES, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_VERTEX_SHADER_INVOCATIONS,
+             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_GEOMETRY_SHADER_INVOCATIONS,
+             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_FRAGMENT_SHADER_INVOCATIONS,
+             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_CLIPPING_INPUT_PRIMITIVES,
+             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
+      Target{GL_CLIPPING_OUTPUT_PRIMITIVES,
+             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
   };
   for (const Target& entry : targets) {
     GLint current = 0;
@@ -78,34 +84,48 @@ std::string replayReason(const calls::DrawCall& call, const guard::ContextFacts&
   if (call.replay == nullptr) return std::string(call.name) + " draws cannot be replayed yet";
   if (facts.compatibility()) {
     if (integer(GL_LIST_INDEX) != 0) return "the call is being compiled into a display list";
-    if (integer(GL_RENDER_MODE) != GL_RENDER) return "the draw is made for selection or feedback and writes no pixels";
+    if (integer(GL_RENDER_MODE) != GL_RENDER)
+      return "the draw is made for selection or feedback and writes no pixels";
   }
   if (facts.atLeast(30, 30) && gl().IsEnabled(GL_RASTERIZER_DISCARD)) {
     return "rasterization is switched off (GL_RASTERIZER_DISCARD): no fragment shader runs";
   }
+  if (calls::conditionalRenderActive())
+    return "the draw is made under a condition (glBeginConditionalRender), which cannot be replayed yet";
   if (queryActive(facts)) return "a query that counts what is drawn is active, which a replay would change";
-  if (feedbackUnpausable(facts)) return "transform feedback buffers are bound, and this driver cannot pause the feedback";
+  if (feedbackUnpausable(facts))
+    return "transform feedback buffers are bound, and this driver cannot pause the feedback";
   return "";
 }
 
 wire::Provider provider() {
   switch (dispatch::currentProvider()) {
-    case dispatch::Provider::glx: return wire::Provider::Glx;
-    case dispatch::Provider::egl: return wire::Provider::Egl;
-    case dispatch::Provider::osmesa: return wire::Provider::OsMesa;
-    case dispatch::Provider::none: break;
+    case dispatch::Provider::glx:
+      return wire::Provider::Glx;
+    case dispatch::Provider::egl:
+      return wire::Provider::Egl;
+    case dispatch::Provider::osmesa:
+      return wire::Provider::OsMesa;
+    case dispatch::Provider::none:
+      break;
   }
   return wire::Provider::None;
 }
 
 wire::Stage stage(GLenum shader_type) {
   switch (shader_type) {
-    case GL_VERTEX_SHADER: return wire::Stage::Vertex;
-    case GL_TESS_CONTROL_SHADER: return wire::Stage::TessControl;
-    case GL_TESS_EVALUATION_SHADER: return wire::Stage::TessEval;
-    case GL_GEOMETRY_SHADER: return wire::Stage::Geometry;
-    case GL_COMPUTE_SHADER: return wire::Stage::Compute;
-    default: return wire::Stage::Fragment;
+    case GL_VERTEX_SHADER:
+      return wire::Stage::Vertex;
+    case GL_TESS_CONTROL_SHADER:
+      return wire::Stage::TessControl;
+    case GL_TESS_EVALUATION_SHADER:
+      return wire::Stage::TessEval;
+    case GL_GEOMETRY_SHADER:
+      return wire::Stage::Geometry;
+    case GL_COMPUTE_SHADER:
+      return wire::Stage::Compute;
+    default:
+      return wire::Stage::Fragment;
   }
 }
 
@@ -122,7 +142,8 @@ std::vector<std::unique_ptr<wire::ShaderStageT>> stages(const calls::LinkedProgr
     }
     for (const auto& other : result) {
       if (other->stage != entry->stage) continue;
-      other->reason = entry->reason = "the stage is linked from several shader objects, which cannot be debugged yet";
+      other->reason = entry->reason =
+          "the stage is linked from several shader objects, which cannot be debugged yet";
     }
     result.push_back(std::move(entry));
   }

@@ -1,5 +1,6 @@
 // What a draw would be carried out with: the answer to Describe.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
 
 #include "interceptor/calls/hooks.h"

@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/agent/stop.h"
 
 #include <time.h>
@@ -71,28 +72,37 @@ class BulkLayout {
   std::uint64_t total_ = 0;
 };
 
-Refusal noMemory() { return guard::limit("there is not enough shared memory for the captured values"); }
+Refusal noMemory() {
+  return guard::limit("there is not enough shared memory for the captured values");
+}
 
 std::uint64_t pixelBytes(int width, int height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 16;
 }
 
 // State of the program under which capture buffers would not hold what the shader wrote.
-Refusal captureObstacle(const guard::ContextFacts& facts, const std::vector<capture::CaptureBuffer>& captures) {
+Refusal captureObstacle(const guard::ContextFacts& facts,
+                        const std::vector<capture::CaptureBuffer>& captures) {
   if (captures.empty() || facts.es) return {};
-  const auto is_float = [](const capture::CaptureBuffer& buffer) { return buffer.format == wire::CaptureFormat::Float4; };
+  const auto is_float = [](const capture::CaptureBuffer& buffer) {
+    return buffer.format == wire::CaptureFormat::Float4;
+  };
   if (!std::all_of(captures.begin(), captures.end(), is_float) && gl().IsEnabled(GL_COLOR_LOGIC_OP)) {
-    return guard::unsupported("a logic operation on colours is active (GL_COLOR_LOGIC_OP), which would change captured words");
+    return guard::unsupported(
+        "a logic operation on colours is active (GL_COLOR_LOGIC_OP), which would change captured words");
   }
-  if (facts.compatibility() && std::any_of(captures.begin(), captures.end(), is_float) && facts.atLeast(30, 0)) {
+  if (facts.compatibility() && std::any_of(captures.begin(), captures.end(), is_float) &&
+      facts.atLeast(30, 0)) {
     GLint clamp = GL_FALSE;
     gl().GetIntegerv(GL_CLAMP_FRAGMENT_COLOR, &clamp);
     if (clamp == GL_TRUE) {
-      return guard::unsupported("fragment colours are clamped (GL_CLAMP_FRAGMENT_COLOR), which would change captured floats");
+      return guard::unsupported(
+          "fragment colours are clamped (GL_CLAMP_FRAGMENT_COLOR), which would change captured floats");
     }
   }
   if (!facts.indexedDrawBuffers() && gl().IsEnabled(GL_BLEND)) {
-    return guard::unsupported("blending is on, and this driver cannot switch it off for capture buffers alone");
+    return guard::unsupported(
+        "blending is on, and this driver cannot switch it off for capture buffers alone");
   }
   return {};
 }
@@ -140,7 +150,8 @@ Reply Stop::answer(const wire::MessageT& request) {
     prepared_.erase(release->handle);
     reply = success(wire::DoneT{});
   } else {
-    reply = failed(guard::internal("the agent does not know this request; use interceptor and shadestep of one build"));
+    reply = failed(
+        guard::internal("the agent does not know this request; use interceptor and shadestep of one build"));
   }
   guard::clearErrors();
   return reply;
@@ -151,7 +162,8 @@ const DrawFacts& Stop::facts() {
   return *facts_;
 }
 
-// ---- Prepare -------------------------------------------------------------------------------------------------
+// ---- Prepare
+// -------------------------------------------------------------------------------------------------
 
 OrRefusal<wire::PreparedT> Stop::prepare(const wire::PrepareT& request) {
   if (!facts().program_reason.empty()) return guard::unsupported(facts().program_reason);
@@ -171,15 +183,18 @@ OrRefusal<wire::PreparedT> Stop::prepare(const wire::PrepareT& request) {
   return prepared;
 }
 
-// ---- Execute -------------------------------------------------------------------------------------------------
+// ---- Execute
+// -------------------------------------------------------------------------------------------------
 
 OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::SharedMemory& bulk) {
   const auto found = prepared_.find(request.handle);
-  if (found == prepared_.end()) return guard::internal("there is no prepared program with this handle at this stop");
+  if (found == prepared_.end())
+    return guard::internal("there is no prepared program with this handle at this stop");
   const replay::ProgramCopy& copy = *found->second;
   const bool wants_storage = request.storage_words > 0 || !request.storage.empty();
   if (wants_storage && !facts().context.storageBuffers()) {
-    return guard::unsupported("this driver has no storage buffers (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object)");
+    return guard::unsupported(
+        "this driver has no storage buffers (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object)");
   }
   const guard::ProgramGuard program(facts().context);
   const guard::FramebufferGuard framebuffers(facts().context);
@@ -190,7 +205,8 @@ OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::Sh
 
 // Every repeat starts from the program's own target contents, zeroed captures and a fresh storage buffer: all
 // repeats, and the program's own draw afterwards, see the same. None of that is in the measured time.
-OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const guard::FramebufferGuard& framebuffers,
+OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy,
+                                        const guard::FramebufferGuard& framebuffers,
                                         const wire::ExecuteT& request, wire::SharedMemory& bulk) {
   const guard::ContextFacts& context = facts().context;
   const capture::DrawTarget& target = facts().target;
@@ -253,7 +269,8 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
   if (size <= 0) return guard::unsupported("the covering target needs a size of at least one pixel");
   if (!copy.captures.empty()) return guard::unsupported("a covering triangle has no capture buffers");
   if (!context.vertexArrays() || !context.framebufferObjects()) {
-    return guard::unsupported("the driver has no framebuffer and vertex array objects, which a covering triangle needs");
+    return guard::unsupported(
+        "the driver has no framebuffer and vertex array objects, which a covering triangle needs");
   }
 
   wire::ExecutedT executed;
@@ -262,7 +279,8 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
   {
     const guard::VertexArrayGuard vertices;
     const guard::PlainRasterGuard raster(context, size);
-    if (Refusal refusal = covering_.bind(size, copy.colour_outputs, copy.position_attribute); !refusal.text.empty()) {
+    if (Refusal refusal = covering_.bind(size, copy.colour_outputs, copy.position_attribute);
+        !refusal.text.empty()) {
       return refusal;
     }
     if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
@@ -293,7 +311,8 @@ Refusal Stop::drawReference(const guard::FramebufferGuard& framebuffers) {
   if (Refusal refusal = shadow_->fill(framebuffers, {}); !refusal.text.empty()) return refusal;
   call_.replay(call_.arguments);
   if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
-  auto reference = wire::SharedMemory::create("shadestep-reference", std::max<std::size_t>(shadow_->originalsBytes(), 1));
+  auto reference =
+      wire::SharedMemory::create("shadestep-reference", std::max<std::size_t>(shadow_->originalsBytes(), 1));
   if (!reference) return noMemory();
   const guard::PixelReadGuard reading(facts().context);
   shadow_->readOriginals(reference.data());

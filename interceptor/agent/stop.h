@@ -1,6 +1,7 @@
 // One stop at a draw call: carries out the session's requests on the stopped thread. Between two requests the
 // program's GL state is as the program left it; only objects of the agent's own live until the stop ends.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
 
 #include <map>
@@ -38,7 +39,8 @@ class Stop {
   guard::OrRefusal<wire::ExecutedT> execute(const wire::ExecuteT&, wire::SharedMemory& bulk);
   guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy&, const guard::FramebufferGuard&,
                                            const wire::ExecuteT&, wire::SharedMemory& bulk);
-  guard::OrRefusal<wire::ExecutedT> cover(const replay::ProgramCopy&, const wire::ExecuteT&, wire::SharedMemory& bulk);
+  guard::OrRefusal<wire::ExecutedT> cover(const replay::ProgramCopy&, const wire::ExecuteT&,
+                                          wire::SharedMemory& bulk);
   guard::Refusal drawReference(const guard::FramebufferGuard&);
   guard::Refusal compareWithReference(wire::ExecutedT&) const;
   guard::Refusal resetStorage(const replay::ProgramCopy&, const wire::ExecuteT&);

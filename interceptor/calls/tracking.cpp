@@ -1,7 +1,7 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/calls/tracking.h"
 
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <unordered_map>
@@ -35,6 +35,9 @@ std::unordered_map<std::uint64_t, ShareGroup>& groups() {
   static auto* all = new std::unordered_map<std::uint64_t, ShareGroup>;
   return *all;
 }
+
+// The context of this thread in which glBeginConditionalRender was called last; OpenGL cannot be asked.
+thread_local const dispatch::Context* conditional = nullptr;
 
 ShareGroup* currentGroup() {
   const dispatch::Context* context = dispatch::currentContext();
@@ -78,7 +81,8 @@ void setLinked(GLuint program, LinkedProgram linked) {
 void forgetShaderIfGone(GLuint shader) {
   const std::lock_guard lock(mutex);
   ShareGroup* group = currentGroup();
-  if (group != nullptr && group->shaders.count(shader) != 0 && !gl().IsShader(shader)) group->shaders.erase(shader);
+  if (group != nullptr && group->shaders.count(shader) != 0 && !gl().IsShader(shader))
+    group->shaders.erase(shader);
 }
 
 // A program in use outlives its deletion; its name is known until the driver forgets it.
@@ -103,7 +107,12 @@ std::shared_ptr<const LinkedProgram> linkedProgram(GLuint program) {
   return std::make_shared<LinkedProgram>(std::move(unknown));
 }
 
-// ---- hooks ---------------------------------------------------------------------------------------------------
+bool conditionalRenderActive() {
+  return conditional != nullptr && conditional == dispatch::currentContext();
+}
+
+// ---- hooks
+// ---------------------------------------------------------------------------------------------------
 
 void after_glShaderSource(GLuint shader, GLsizei count, const GLchar* const* string, const GLint* length) {
   if (count < 0 || string == nullptr) return;
@@ -121,7 +130,8 @@ void after_glCompileShader(GLuint shader) {
 }
 
 void after_glCompileShaderIncludeARB(GLuint shader, GLsizei, const GLchar* const*, const GLint*) {
-  markWithoutText(1, &shader, "the shader is compiled with glCompileShaderIncludeARB, which cannot be debugged yet");
+  markWithoutText(1, &shader,
+                  "the shader is compiled with glCompileShaderIncludeARB, which cannot be debugged yet");
 }
 
 void after_glShaderBinary(GLsizei count, const GLuint* shaders, GLenum, const void*, GLsizei) {
@@ -132,9 +142,15 @@ void after_glSpecializeShader(GLuint shader, const GLchar*, GLuint, const GLuint
   markWithoutText(1, &shader, "the shader is SPIR-V: there is no source");
 }
 
-void after_glDeleteShader(GLuint shader) { forgetShaderIfGone(shader); }
-void after_glDetachShader(GLuint, GLuint shader) { forgetShaderIfGone(shader); }
-void after_glDeleteProgram(GLuint program) { forgetProgramIfGone(program); }
+void after_glDeleteShader(GLuint shader) {
+  forgetShaderIfGone(shader);
+}
+void after_glDetachShader(GLuint, GLuint shader) {
+  forgetShaderIfGone(shader);
+}
+void after_glDeleteProgram(GLuint program) {
+  forgetProgramIfGone(program);
+}
 
 void after_glDeleteObjectARB(GLhandleARB object) {
   const auto name = static_cast<GLuint>(object);
@@ -169,9 +185,10 @@ void after_glLinkProgram(GLuint program) {
     gl().GetShaderiv(attached[i], GL_SHADER_TYPE, &type);
     const auto known = group->shaders.find(attached[i]);
     const bool has_text = known != group->shaders.end() && known->second.compiled != nullptr;
-    linked.shaders.push_back({attached[i], static_cast<GLenum>(type),
-                              has_text ? known->second.compiled
-                                       : withoutText("the shader's source was given where shadestep did not see it")});
+    linked.shaders.push_back(
+        {attached[i], static_cast<GLenum>(type),
+         has_text ? known->second.compiled
+                  : withoutText("the shader's source was given where shadestep did not see it")});
   }
   setLinked(program, std::move(linked));
 }
@@ -183,6 +200,13 @@ void after_glCreateShaderProgramv(GLuint result, GLenum type, GLsizei count, con
   linked.shaders.push_back(
       {0, type, std::make_shared<CompiledSource>(CompiledSource{strings(count, text, nullptr), ""})});
   setLinked(result, std::move(linked));
+}
+
+void after_glBeginConditionalRender(GLuint, GLenum) {
+  conditional = dispatch::currentContext();
+}
+void after_glEndConditionalRender() {
+  conditional = nullptr;
 }
 
 void after_glProgramBinary(GLuint program, GLenum, const void*, GLsizei) {

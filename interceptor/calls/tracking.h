@@ -1,13 +1,15 @@
 // The source text of the program's shaders, as it was when each program was linked.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 
 namespace shadestep::calls {
 
@@ -18,8 +20,8 @@ struct CompiledSource {
 };
 
 struct LinkedShader {
-  GLuint shader = 0;  // name at link time; may be gone or reused since
-  GLenum type = 0;    // GL_FRAGMENT_SHADER, ...
+  GLuint shader = 0;                             // name at link time; may be gone or reused since
+  GLenum type = 0;                               // GL_FRAGMENT_SHADER, ...
   std::shared_ptr<const CompiledSource> source;  // never null
 };
 
@@ -29,10 +31,14 @@ struct LinkedProgram {
   // glBindAttribLocation as it stood at the link: an instrumented copy may have attributes alive that the
   // original link dropped.
   std::vector<std::pair<std::string, GLuint>> attributes;
-  std::string reason;  // why its shaders are not known ("" if they are): a program binary, made before we looked
+  std::string
+      reason;  // why its shaders are not known ("" if they are): a program binary, made before we looked
 };
 
 // Of a program of the current context's share group. Never null.
 std::shared_ptr<const LinkedProgram> linkedProgram(GLuint program);
+
+// Whether the program draws under a condition (glBeginConditionalRender) that the driver may find false.
+bool conditionalRenderActive();
 
 }  // namespace shadestep::calls

@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/capture/covering.h"
 
 #include "interceptor/dispatch/dispatch.h"
@@ -12,7 +13,9 @@ constexpr GLfloat kTriangle[3][2] = {{-1, -1}, {3, -1}, {-1, 3}};
 
 }  // namespace
 
-Covering::~Covering() { release(); }
+Covering::~Covering() {
+  release();
+}
 
 void Covering::release() {
   if (framebuffer_ == 0) return;
@@ -48,8 +51,8 @@ guard::Refusal Covering::bind(int size, int outputs, int position) {
   gl().BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
   if (gl().CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     release();
-    return guard::limit("the driver takes no framebuffer of " + std::to_string(size) + " x " + std::to_string(size) +
-                        " with " + std::to_string(outputs) + " float colour buffers");
+    return guard::limit("the driver takes no framebuffer of " + std::to_string(size) + " x " +
+                        std::to_string(size) + " with " + std::to_string(outputs) + " float colour buffers");
   }
   gl().BindVertexArray(vertex_array_);
   if (position >= 0) {
@@ -61,7 +64,9 @@ guard::Refusal Covering::bind(int size, int outputs, int position) {
   return {};
 }
 
-void Covering::draw() const { gl().DrawArrays(GL_TRIANGLES, 0, 3); }
+void Covering::draw() const {
+  gl().DrawArrays(GL_TRIANGLES, 0, 3);
+}
 
 void Covering::readOutput(int index, void* floats) const {
   gl().BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);

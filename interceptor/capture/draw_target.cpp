@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/capture/draw_target.h"
 
 #include <algorithm>
@@ -25,7 +26,8 @@ GLint attachmentParameter(GLenum target, GLenum attachment, GLenum name) {
   return value;
 }
 
-// ---- formats -------------------------------------------------------------------------------------------------
+// ---- formats
+// -------------------------------------------------------------------------------------------------
 
 // Formats whose components all have the same number of bits.
 struct Uniform {
@@ -72,7 +74,8 @@ GLenum internalFormat(const Format& format) {
     return bits[3] == 8 ? GL_SRGB8_ALPHA8 : bits[3] == 0 ? GL_SRGB8 : 0;
   }
   for (const Mixed& mixed : kMixed) {
-    if (mixed.type == format.type && std::equal(mixed.bits.begin(), mixed.bits.end(), bits)) return mixed.format;
+    if (mixed.type == format.type && std::equal(mixed.bits.begin(), mixed.bits.end(), bits))
+      return mixed.format;
   }
   const int count = format.components();
   for (int i = 0; i < 4; ++i) {
@@ -87,18 +90,24 @@ GLenum internalFormat(const Format& format) {
 }
 
 GLenum depthStencilInternalFormat(const DepthStencil& bits) {
-  if (bits.stencil_bits > 0 && bits.depth_bits > 0) return bits.depth_float ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
+  if (bits.stencil_bits > 0 && bits.depth_bits > 0)
+    return bits.depth_float ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
   if (bits.stencil_bits > 0) return GL_STENCIL_INDEX8;
   if (bits.depth_float) return GL_DEPTH_COMPONENT32F;
   switch (bits.depth_bits) {
-    case 0: return 0;
-    case 16: return GL_DEPTH_COMPONENT16;
-    case 32: return GL_DEPTH_COMPONENT32;
-    default: return GL_DEPTH_COMPONENT24;
+    case 0:
+      return 0;
+    case 16:
+      return GL_DEPTH_COMPONENT16;
+    case 32:
+      return GL_DEPTH_COMPONENT32;
+    default:
+      return GL_DEPTH_COMPONENT24;
   }
 }
 
-// ---- sizes ---------------------------------------------------------------------------------------------------
+// ---- sizes
+// ---------------------------------------------------------------------------------------------------
 
 struct Size {
   int width = 0, height = 0;
@@ -129,8 +138,8 @@ constexpr std::array kTextureTargets = {
     TextureTarget{GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE, GL_TEXTURE_2D_MULTISAMPLE},
 };
 
-// A texture keeps the target that it was first bound to, and binding it to another is an error without effect:
-// the target is found by trying. (Asking for it needs OpenGL 4.5.)
+// A texture keeps the target that it was first bound to, and binding it to another is an error without
+// effect: the target is found by trying. (Asking for it needs OpenGL 4.5.)
 Size textureSize(GLuint texture, GLint level, GLint face) {
   guard::clearErrors();
   for (const TextureTarget& entry : kTextureTargets) {
@@ -150,7 +159,8 @@ Size textureSize(GLuint texture, GLint level, GLint face) {
   return {};
 }
 
-// Takes one attachment of the program's framebuffer into account: framebuffers draw to what all attachments cover.
+// Takes one attachment of the program's framebuffer into account: framebuffers draw to what all attachments
+// cover.
 void addAttachment(DrawTarget& target, GLenum attachment) {
   const auto ask = [&](GLenum name) { return attachmentParameter(GL_DRAW_FRAMEBUFFER, attachment, name); };
   const GLint object = ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
@@ -161,7 +171,8 @@ void addAttachment(DrawTarget& target, GLenum attachment) {
     size = renderbufferSize(name);
   } else {
     GLint layered = 0;
-    gl().GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_LAYERED, &layered);
+    gl().GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
+                                             GL_FRAMEBUFFER_ATTACHMENT_LAYERED, &layered);
     guard::clearErrors();  // before OpenGL 3.2 nothing is layered, and asking is an error
     if (layered) target.reason = "the draw goes to a layered framebuffer, which cannot be captured yet";
     size = textureSize(name, ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL),
@@ -175,18 +186,22 @@ void addAttachment(DrawTarget& target, GLenum attachment) {
   target.height = target.height == 0 ? size.height : std::min(target.height, size.height);
 }
 
-// The buffer of the window system's framebuffer that a draw buffer names: what it is called in questions about
-// attachments, and in glReadBuffer.
+// The buffer of the window system's framebuffer that a draw buffer names: what it is called in questions
+// about attachments, and in glReadBuffer.
 GLenum defaultBuffer(GLenum draw_buffer, bool es) {
   if (es) return GL_BACK;
   switch (draw_buffer) {
     case GL_FRONT:
-    case GL_FRONT_LEFT: return GL_FRONT_LEFT;
+    case GL_FRONT_LEFT:
+      return GL_FRONT_LEFT;
     case GL_BACK:
-    case GL_BACK_LEFT: return GL_BACK_LEFT;
+    case GL_BACK_LEFT:
+      return GL_BACK_LEFT;
     case GL_FRONT_RIGHT:
-    case GL_BACK_RIGHT: return draw_buffer;
-    default: return 0;
+    case GL_BACK_RIGHT:
+      return draw_buffer;
+    default:
+      return 0;
   }
 }
 
@@ -197,11 +212,13 @@ void addColorBuffers(DrawTarget& target, const guard::ContextFacts& facts) {
     if (source == GL_NONE) continue;
     if (target.framebuffer == 0) source = defaultBuffer(source, facts.es);
     if (source == 0) {
-      target.reason = "the draw goes to several window buffers at once (GL_FRONT_AND_BACK or stereo), which cannot "
-                      "be captured";
+      target.reason =
+          "the draw goes to several window buffers at once (GL_FRONT_AND_BACK or stereo), which cannot "
+          "be captured";
       return;
     }
-    if (attachmentParameter(GL_DRAW_FRAMEBUFFER, source, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_NONE) continue;
+    if (attachmentParameter(GL_DRAW_FRAMEBUFFER, source, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_NONE)
+      continue;
     if (target.framebuffer != 0) addAttachment(target, source);
     const ColorBuffer color{i, source, attachmentFormat(GL_DRAW_FRAMEBUFFER, source)};
     if (color.format.internal_format == 0) {
@@ -222,8 +239,10 @@ Format attachmentFormat(GLenum target, GLenum attachment) {
   Format format;
   constexpr std::array kSizes = {GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE, GL_FRAMEBUFFER_ATTACHMENT_GREEN_SIZE,
                                  GL_FRAMEBUFFER_ATTACHMENT_BLUE_SIZE, GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE};
-  for (std::size_t i = 0; i < kSizes.size(); ++i) format.bits[i] = attachmentParameter(target, attachment, kSizes[i]);
-  format.type = static_cast<GLenum>(attachmentParameter(target, attachment, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE));
+  for (std::size_t i = 0; i < kSizes.size(); ++i)
+    format.bits[i] = attachmentParameter(target, attachment, kSizes[i]);
+  format.type =
+      static_cast<GLenum>(attachmentParameter(target, attachment, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE));
   format.srgb = attachmentParameter(target, attachment, GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) == GL_SRGB;
   format.internal_format = internalFormat(format);
   return format;
@@ -235,8 +254,9 @@ DepthStencil depthStencilFormat(GLenum target, bool default_framebuffer) {
   DepthStencil format;
   if (attachmentParameter(target, depth, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE) {
     format.depth_bits = attachmentParameter(target, depth, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
-    format.depth_float = format.depth_bits > 0 && attachmentParameter(target, depth,
-                                                     GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
+    format.depth_float =
+        format.depth_bits > 0 &&
+        attachmentParameter(target, depth, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
   }
   if (attachmentParameter(target, stencil, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE) {
     format.stencil_bits = attachmentParameter(target, stencil, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE);
@@ -248,8 +268,9 @@ DepthStencil depthStencilFormat(GLenum target, bool default_framebuffer) {
 DrawTarget drawTarget(const guard::ContextFacts& facts) {
   DrawTarget target;
   if (!facts.framebufferObjects()) {
-    target.reason = "the driver offers no framebuffer objects (OpenGL 3.0 or GL_ARB_framebuffer_object), which "
-                    "captures need";
+    target.reason =
+        "the driver offers no framebuffer objects (OpenGL 3.0 or GL_ARB_framebuffer_object), which "
+        "captures need";
     return target;
   }
   target.framebuffer = static_cast<GLuint>(integer(GL_DRAW_FRAMEBUFFER_BINDING));

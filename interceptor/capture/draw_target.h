@@ -1,23 +1,23 @@
 // The framebuffer that the program's draw goes to: size, and the format of every buffer it writes.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <string>
 #include <vector>
 
 #include "interceptor/guard/context_facts.h"
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 
 namespace shadestep::capture {
 
 // How one buffer stores its components.
 struct Format {
   GLenum internal_format = 0;  // sized; for glRenderbufferStorage
-  GLenum type = 0;             // GL_UNSIGNED_NORMALIZED, GL_FLOAT, GL_INT, GL_UNSIGNED_INT, GL_SIGNED_NORMALIZED
+  GLenum type = 0;  // GL_UNSIGNED_NORMALIZED, GL_FLOAT, GL_INT, GL_UNSIGNED_INT, GL_SIGNED_NORMALIZED
   bool srgb = false;
-  int bits[4] = {};            // red, green, blue, alpha
+  int bits[4] = {};  // red, green, blue, alpha
   bool integer() const { return type == GL_INT || type == GL_UNSIGNED_INT; }
   int components() const { return (bits[0] != 0) + (bits[1] != 0) + (bits[2] != 0) + (bits[3] != 0); }
   bool operator==(const Format& other) const;
@@ -41,14 +41,14 @@ struct DrawTarget {
   int width = 0, height = 0;
   std::vector<ColorBuffer> colors;
   DepthStencil depth_stencil;
-  int draw_buffers = 0;   // highest used draw buffer + 1
-  std::string reason;     // why captures cannot work on it ("" if they can)
+  int draw_buffers = 0;  // highest used draw buffer + 1
+  std::string reason;    // why captures cannot work on it ("" if they can)
 };
 
 DrawTarget drawTarget(const guard::ContextFacts&);
 
-// The format of one attachment of the framebuffer bound to `target`; the internal format is 0 if it is not one
-// that a renderbuffer can have.
+// The format of one attachment of the framebuffer bound to `target`; the internal format is 0 if it is not
+// one that a renderbuffer can have.
 Format attachmentFormat(GLenum target, GLenum attachment);
 
 // The same for depth and stencil.

@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/capture/drawable_size.h"
 
 #include "interceptor/dispatch/dispatch.h"
@@ -10,7 +11,8 @@ namespace {
 
 using dispatch::Context;
 
-// libX11 reports errors to a handler that ends the program; a drawable that was current a moment ago raises none.
+// libX11 reports errors to a handler that ends the program; a drawable that was current a moment ago raises
+// none.
 DrawableSize glxSize(const Context& context) {
   unsigned int width = 0;
   unsigned int height = 0;

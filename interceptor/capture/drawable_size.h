@@ -1,5 +1,6 @@
 // The size of the window system's framebuffer, which OpenGL itself does not tell.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/capture/shadow.h"
 
 #include <algorithm>
@@ -12,7 +13,9 @@ namespace {
 
 using dispatch::gl;
 
-GLenum colorAttachment(int index) { return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index); }
+GLenum colorAttachment(int index) {
+  return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index);
+}
 
 GLuint makeRenderbuffer(GLenum format, const DrawTarget& size) {
   GLuint name = 0;
@@ -26,8 +29,8 @@ void attach(GLenum attachment, GLuint renderbuffer) {
   gl().FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, attachment, GL_RENDERBUFFER, renderbuffer);
 }
 
-// Window-system framebuffers are stored upside down by Mesa. A copy that is not would be rasterized from the other
-// side, and interpolated values would differ in their last bits.
+// Window-system framebuffers are stored upside down by Mesa. A copy that is not would be rasterized from the
+// other side, and interpolated values would differ in their last bits.
 void storeUpsideDown(const guard::ContextFacts& facts) {
   if (!facts.has("GL_MESA_framebuffer_flip_y")) return;
   if (dispatch::available("glFramebufferParameteriMESA")) {
@@ -104,7 +107,8 @@ bool Shadow::build() {
     if (wanted.depth_bits > 0) attach(GL_DEPTH_ATTACHMENT, depth_stencil_);
     if (wanted.stencil_bits > 0) attach(GL_STENCIL_ATTACHMENT, depth_stencil_);
     if (!(depthStencilFormat(GL_DRAW_FRAMEBUFFER, false) == wanted)) {
-      refusal_ = guard::unsupported("the driver has no framebuffer object with the program's depth and stencil format");
+      refusal_ = guard::unsupported(
+          "the driver has no framebuffer object with the program's depth and stencil format");
       return false;
     }
   }
@@ -135,7 +139,8 @@ void Shadow::attachCaptures(const std::vector<CaptureBuffer>& captures) {
 // Blits copy bit for bit between equal formats once nothing clips or converts them.
 void Shadow::copyProgramContents() const {
   const auto blit = [&](GLbitfield buffers) {
-    gl().BlitFramebuffer(0, 0, target_.width, target_.height, 0, 0, target_.width, target_.height, buffers, GL_NEAREST);
+    gl().BlitFramebuffer(0, 0, target_.width, target_.height, 0, 0, target_.width, target_.height, buffers,
+                         GL_NEAREST);
   };
   gl().BindFramebuffer(GL_READ_FRAMEBUFFER, target_.framebuffer);
   GLint read_buffer = 0;
@@ -157,7 +162,8 @@ void Shadow::copyProgramContents() const {
 void Shadow::selectDrawBuffers(const std::vector<CaptureBuffer>& captures) const {
   std::vector<GLenum> buffers;
   const auto use = [&](int index) {
-    if (buffers.size() <= static_cast<std::size_t>(index)) buffers.resize(static_cast<std::size_t>(index) + 1, GL_NONE);
+    if (buffers.size() <= static_cast<std::size_t>(index))
+      buffers.resize(static_cast<std::size_t>(index) + 1, GL_NONE);
     buffers[static_cast<std::size_t>(index)] = colorAttachment(index);
   };
   for (const ColorBuffer& color : target_.colors) use(color.draw_buffer);
@@ -170,7 +176,8 @@ std::size_t Shadow::pixels() const {
   return static_cast<std::size_t>(target_.width) * static_cast<std::size_t>(target_.height);
 }
 
-// ---- reading -------------------------------------------------------------------------------------------------
+// ---- reading
+// -------------------------------------------------------------------------------------------------
 
 void Shadow::readCapture(const CaptureBuffer& capture, void* words) const {
   const bool integer = capture.format == wire::CaptureFormat::Uint4;

@@ -1,10 +1,7 @@
-// A framebuffer of the agent's own that looks like the program's: same size, formats and contents, with capture
-// buffers beside the copies. Replays draw here; the program's framebuffer is only read.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// A framebuffer of the agent's own that looks like the program's: same size, formats and contents, with
+// capture buffers beside the copies. Replays draw here; the program's framebuffer is only read. Runs inside
+// the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
 #pragma once
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <cstddef>
 #include <vector>
@@ -12,6 +9,8 @@
 #include "interceptor/capture/draw_target.h"
 #include "interceptor/guard/guards.h"
 #include "interceptor/guard/refusal.h"
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::capture {
@@ -30,17 +29,17 @@ class Shadow {
   Shadow(const Shadow&) = delete;
   Shadow& operator=(const Shadow&) = delete;
 
-  // Makes it ready for one replay: the program's contents as they are now, captures zero, and bound for drawing
-  // with the program's draw buffers and the captures. Empty text: done.
-  // The caller holds a FramebufferGuard and, for the captures, a CaptureBufferGuard.
+  // Makes it ready for one replay: the program's contents as they are now, captures zero, and bound for
+  // drawing with the program's draw buffers and the captures. Empty text: done. The caller holds a
+  // FramebufferGuard and, for the captures, a CaptureBufferGuard.
   guard::Refusal fill(const guard::FramebufferGuard&, const std::vector<CaptureBuffer>& captures);
 
   // Reads one buffer, rows from the bottom up, without gaps. The caller holds a PixelReadGuard.
-  void readCapture(const CaptureBuffer&, void* words) const;   // 4 words a pixel
-  void readOutput(const ColorBuffer&, void* words) const;      // 4 floats a pixel; integer formats as integers
+  void readCapture(const CaptureBuffer&, void* words) const;  // 4 words a pixel
+  void readOutput(const ColorBuffer&, void* words) const;     // 4 floats a pixel; integer formats as integers
 
-  // All original outputs in a form that keeps every bit: colours as readOutput, then depth (a word a pixel), then
-  // stencil (a byte a pixel). OpenGL ES cannot read depth and stencil.
+  // All original outputs in a form that keeps every bit: colours as readOutput, then depth (a word a pixel),
+  // then stencil (a byte a pixel). OpenGL ES cannot read depth and stencil.
   std::size_t originalsBytes() const;
   void readOriginals(std::byte* destination) const;
   struct Difference {

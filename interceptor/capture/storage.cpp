@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/capture/storage.h"
 
 #include <algorithm>
@@ -27,7 +28,9 @@ void clear(std::uint64_t bytes) {
 
 }  // namespace
 
-StorageBuffer::~StorageBuffer() { release(); }
+StorageBuffer::~StorageBuffer() {
+  release();
+}
 
 void StorageBuffer::release() {
   if (buffer_ != 0) gl().DeleteBuffers(1, &buffer_);
@@ -40,8 +43,8 @@ guard::Refusal StorageBuffer::reset(const std::vector<std::uint32_t>& initial, s
   GLint64 most = 0;
   gl().GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   if (size > static_cast<std::uint64_t>(most) / 4) {
-    return guard::limit("a storage buffer of " + std::to_string(size) + " words is asked for; this driver allows " +
-                        std::to_string(most / 4));
+    return guard::limit("a storage buffer of " + std::to_string(size) +
+                        " words is asked for; this driver allows " + std::to_string(most / 4));
   }
   if (buffer_ == 0) gl().GenBuffers(1, &buffer_);
   gl().BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer_);
@@ -49,13 +52,15 @@ guard::Refusal StorageBuffer::reset(const std::vector<std::uint32_t>& initial, s
     gl().BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(size * 4), nullptr, GL_DYNAMIC_READ);
     if (guard::clearErrors()) {
       words_ = 0;
-      return guard::limit("the driver has no memory for a storage buffer of " + std::to_string(size) + " words");
+      return guard::limit("the driver has no memory for a storage buffer of " + std::to_string(size) +
+                          " words");
     }
     words_ = size;
   }
   clear(size * 4);
   if (!initial.empty()) {
-    gl().BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(initial.size() * 4), initial.data());
+    gl().BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(initial.size() * 4),
+                       initial.data());
   }
   return {};
 }

@@ -1,15 +1,15 @@
 // The storage buffer that a recording shader writes to.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <cstdint>
 #include <vector>
 
 #include "interceptor/guard/context_facts.h"
 #include "interceptor/guard/refusal.h"
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 
 namespace shadestep::capture {
 

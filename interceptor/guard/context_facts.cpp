@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/guard/context_facts.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cstring>
 
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/registry/gl_enums.h"
 
 namespace shadestep::guard {
 namespace {

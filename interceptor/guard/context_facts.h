@@ -1,5 +1,6 @@
 // What the current context is and offers, asked from the driver once per stop.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ struct ContextFacts {
   bool core = false;  // a core profile: no fixed function, no attribute stacks
   int major = 0, minor = 0;
   std::vector<std::string> extensions;
-  int max_draw_buffers = 1;  // what a framebuffer object can hold and a fragment shader can write
+  int max_draw_buffers = 1;    // what a framebuffer object can hold and a fragment shader can write
   int max_storage_blocks = 0;  // of the fragment stage, 0 = none or not bindable by name
   int max_storage_bindings = 0;
 

@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/guard/errors.h"
 
 #include <array>
@@ -18,8 +19,8 @@ struct Waiting {
   GLenum error = GL_NO_ERROR;
 };
 
-// Fixed room: errors waiting at stops that the program has not fetched. When it is full the oldest are dropped,
-// as a program that never asks has no use for them.
+// Fixed room: errors waiting at stops that the program has not fetched. When it is full the oldest are
+// dropped, as a program that never asks has no use for them.
 std::mutex waiting_mutex;
 std::array<Waiting, 64> waiting;
 std::size_t next_slot = 0;
@@ -59,7 +60,9 @@ ErrorGuard::ErrorGuard() {
   }
 }
 
-ErrorGuard::~ErrorGuard() { clearErrors(); }
+ErrorGuard::~ErrorGuard() {
+  clearErrors();
+}
 
 GLenum programError() {
   if (waiting_count.load(std::memory_order_relaxed) > 0) {
@@ -67,6 +70,11 @@ GLenum programError() {
     if (error != GL_NO_ERROR) return error;
   }
   return dispatch::gl().GetError();
+}
+
+void forgetErrors(const void* context) {
+  while (take(context) != GL_NO_ERROR) {
+  }
 }
 
 bool clearErrors() {

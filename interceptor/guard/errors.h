@@ -1,9 +1,11 @@
 // The program's GL error flags. What the program caused before a stop it is still told after it; what the
 // agent caused it never hears of.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
 
-#include <GL/gl.h>
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 
 namespace shadestep::guard {
 
@@ -18,6 +20,9 @@ class ErrorGuard {
 
 // What glGetError tells the program: a waiting error of its current context first, then the driver's.
 GLenum programError();
+
+// Forgets what waits for a context that is gone.
+void forgetErrors(const void* context);
 
 // Empties the driver's error flag; true if there was an error.
 bool clearErrors();

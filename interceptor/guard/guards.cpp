@@ -1,9 +1,11 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/guard/guards.h"
 
 #include <array>
 
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/errors.h"
 
 namespace shadestep::guard {
 namespace {
@@ -16,9 +18,11 @@ GLint integer(GLenum name) {
   return value;
 }
 
-GLuint binding(GLenum name) { return static_cast<GLuint>(integer(name)); }
+GLuint binding(GLenum name) {
+  return static_cast<GLuint>(integer(name));
+}
 
-constexpr std::array kStages = {GL_VERTEX_SHADER,          GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
+constexpr std::array kStages = {GL_VERTEX_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
                                 GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER};
 
 int viewportCount(const ContextFacts& facts) {
@@ -27,9 +31,11 @@ int viewportCount(const ContextFacts& facts) {
 
 }  // namespace
 
-// ---- capabilities --------------------------------------------------------------------------------------------
+// ---- capabilities
+// --------------------------------------------------------------------------------------------
 
-CapabilityGuard::CapabilityGuard(GLenum capability, int indices) : capability_(capability), indexed_(indices > 0) {
+CapabilityGuard::CapabilityGuard(GLenum capability, int indices)
+    : capability_(capability), indexed_(indices > 0) {
   if (!indexed_) {
     enabled_.push_back(gl().IsEnabled(capability));
     return;
@@ -37,7 +43,9 @@ CapabilityGuard::CapabilityGuard(GLenum capability, int indices) : capability_(c
   for (int i = 0; i < indices; ++i) enabled_.push_back(gl().IsEnabledi(capability, static_cast<GLuint>(i)));
 }
 
-void CapabilityGuard::disable() const { gl().Disable(capability_); }
+void CapabilityGuard::disable() const {
+  gl().Disable(capability_);
+}
 
 void CapabilityGuard::restore() const {
   if (!indexed_) {
@@ -49,7 +57,8 @@ void CapabilityGuard::restore() const {
   }
 }
 
-// ---- framebuffers --------------------------------------------------------------------------------------------
+// ---- framebuffers
+// --------------------------------------------------------------------------------------------
 
 FramebufferGuard::FramebufferGuard(const ContextFacts& facts)
     : srgb_switch_(facts.srgbSwitch()),
@@ -75,7 +84,8 @@ void FramebufferGuard::clipAsProgram() const {
   if (srgb_switch_) srgb_.restore();
 }
 
-// ---- programs ------------------------------------------------------------------------------------------------
+// ---- programs
+// ------------------------------------------------------------------------------------------------
 
 ProgramGuard::ProgramGuard(const ContextFacts& facts) : program_(binding(GL_CURRENT_PROGRAM)) {
   if (facts.pausesTransformFeedback()) {
@@ -94,9 +104,11 @@ ProgramGuard::ProgramGuard(const ContextFacts& facts) : program_(binding(GL_CURR
     gl().GetProgramStageiv(program_, stage, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS, &locations);
     if (locations <= 0) continue;
     StageSubroutines saved{stage, std::vector<GLuint>(static_cast<std::size_t>(locations))};
-    for (GLint i = 0; i < locations; ++i) gl().GetUniformSubroutineuiv(stage, i, &saved.indices[static_cast<std::size_t>(i)]);
+    for (GLint i = 0; i < locations; ++i)
+      gl().GetUniformSubroutineuiv(stage, i, &saved.indices[static_cast<std::size_t>(i)]);
     subroutines_.push_back(std::move(saved));
   }
+  clearErrors();  // asking about a stage that the program lacks is an error
 }
 
 ProgramGuard::~ProgramGuard() {
@@ -107,15 +119,19 @@ ProgramGuard::~ProgramGuard() {
   if (paused_) gl().ResumeTransformFeedback();
 }
 
-// ---- reading pixels ------------------------------------------------------------------------------------------
+// ---- reading pixels
+// ------------------------------------------------------------------------------------------
 
 PixelReadGuard::PixelReadGuard(const ContextFacts& facts)
     : clamps_(!facts.es && facts.atLeast(30, 0)),
       transfers_(facts.compatibility()),
       has_pack_buffer_(facts.pixelBuffers()) {
   std::vector<GLenum> pack = {GL_PACK_ALIGNMENT};
-  if (facts.atLeast(11, 30)) pack.insert(pack.end(), {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS});
-  if (!facts.es) pack.insert(pack.end(), {GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_PACK_SKIP_IMAGES, GL_PACK_IMAGE_HEIGHT});
+  if (facts.atLeast(11, 30))
+    pack.insert(pack.end(), {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS});
+  if (!facts.es)
+    pack.insert(pack.end(),
+                {GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_PACK_SKIP_IMAGES, GL_PACK_IMAGE_HEIGHT});
   if (facts.has("GL_MESA_pack_invert")) pack.push_back(GL_PACK_INVERT_MESA);
   for (const GLenum name : pack) {
     pack_.push_back({name, static_cast<GLfloat>(integer(name))});
@@ -130,9 +146,9 @@ PixelReadGuard::PixelReadGuard(const ContextFacts& facts)
     gl().ClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);
   }
   if (!transfers_) return;
-  for (const GLenum name : {GL_RED_SCALE, GL_GREEN_SCALE, GL_BLUE_SCALE, GL_ALPHA_SCALE, GL_DEPTH_SCALE, GL_RED_BIAS,
-                            GL_GREEN_BIAS, GL_BLUE_BIAS, GL_ALPHA_BIAS, GL_DEPTH_BIAS, GL_INDEX_SHIFT,
-                            GL_INDEX_OFFSET, GL_MAP_COLOR, GL_MAP_STENCIL}) {
+  for (const GLenum name : {GL_RED_SCALE, GL_GREEN_SCALE, GL_BLUE_SCALE, GL_ALPHA_SCALE, GL_DEPTH_SCALE,
+                            GL_RED_BIAS, GL_GREEN_BIAS, GL_BLUE_BIAS, GL_ALPHA_BIAS, GL_DEPTH_BIAS,
+                            GL_INDEX_SHIFT, GL_INDEX_OFFSET, GL_MAP_COLOR, GL_MAP_STENCIL}) {
     Parameter parameter{static_cast<GLenum>(name), 0};
     gl().GetFloatv(parameter.name, &parameter.value);
     transfer_.push_back(parameter);
@@ -143,13 +159,15 @@ PixelReadGuard::PixelReadGuard(const ContextFacts& facts)
 }
 
 PixelReadGuard::~PixelReadGuard() {
-  for (const Parameter& parameter : pack_) gl().PixelStorei(parameter.name, static_cast<GLint>(parameter.value));
+  for (const Parameter& parameter : pack_)
+    gl().PixelStorei(parameter.name, static_cast<GLint>(parameter.value));
   for (const Parameter& parameter : transfer_) gl().PixelTransferf(parameter.name, parameter.value);
   if (has_pack_buffer_) gl().BindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(pack_buffer_));
   if (clamps_) gl().ClampColor(GL_CLAMP_READ_COLOR, static_cast<GLenum>(clamp_));
 }
 
-// ---- single draw buffers -------------------------------------------------------------------------------------
+// ---- single draw buffers
+// -------------------------------------------------------------------------------------
 
 CaptureBufferGuard::CaptureBufferGuard(const ContextFacts& facts, const std::vector<int>& draw_buffers) {
   if (!facts.indexedDrawBuffers()) return;
@@ -170,7 +188,8 @@ CaptureBufferGuard::~CaptureBufferGuard() {
   }
 }
 
-// ---- buffers -------------------------------------------------------------------------------------------------
+// ---- buffers
+// -------------------------------------------------------------------------------------------------
 
 StorageBindingGuard::StorageBindingGuard(int index)
     : index_(static_cast<GLuint>(index)), generic_(integer(GL_SHADER_STORAGE_BUFFER_BINDING)) {
@@ -198,7 +217,8 @@ VertexArrayGuard::~VertexArrayGuard() {
   gl().BindBuffer(GL_ARRAY_BUFFER, static_cast<GLuint>(array_buffer_));
 }
 
-// ---- a plain raster ------------------------------------------------------------------------------------------
+// ---- a plain raster
+// ------------------------------------------------------------------------------------------
 
 PlainRasterGuard::PlainRasterGuard(const ContextFacts& facts, int size)
     : viewport_arrays_(facts.viewportArrays()),
@@ -279,7 +299,8 @@ PlainRasterGuard::~PlainRasterGuard() {
   }
 }
 
-// ---- debug messages ------------------------------------------------------------------------------------------
+// ---- debug messages
+// ------------------------------------------------------------------------------------------
 
 SilenceGuard::SilenceGuard(const ContextFacts& facts) {
   if (!facts.debugOutput() || !gl().IsEnabled(GL_DEBUG_OUTPUT)) return;

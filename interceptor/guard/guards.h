@@ -1,16 +1,15 @@
-// State that the agent touches, put back at the end of a scope. Every class saves one group when it is made and
-// restores it when it goes; nothing relies on attribute stacks, which core profiles lack and which can be full.
-// Method: Strengert 2010, 7.1.5.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// State that the agent touches, put back at the end of a scope. Every class saves one group when it is made
+// and restores it when it goes; nothing relies on attribute stacks, which core profiles lack and which can be
+// full. Method: Strengert 2010, 7.1.5. Runs inside the program under debug: throws nothing, starts no thread,
+// calls GL only through dispatch::gl().
 #pragma once
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <deque>
 #include <vector>
 
 #include "interceptor/guard/context_facts.h"
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 
 namespace shadestep::guard {
 
@@ -66,8 +65,8 @@ class ProgramGuard {
   std::vector<StageSubroutines> subroutines_;
 };
 
-// All that changes what glReadPixels stores: pixel pack state and buffer, pixel transfer, read clamping. Set to
-// "values as they are, rows without gaps" while it lives.
+// All that changes what glReadPixels stores: pixel pack state and buffer, pixel transfer, read clamping. Set
+// to "values as they are, rows without gaps" while it lives.
 class PixelReadGuard {
  public:
   explicit PixelReadGuard(const ContextFacts&);
@@ -122,8 +121,8 @@ class VertexArrayGuard {
   GLint vertex_array_ = 0, array_buffer_ = 0;
 };
 
-// Everything between a triangle and a plain target: tests, blending, masks, culling, viewports. While it lives a
-// triangle is rasterized whole and written as it is to a target of `size` x `size`.
+// Everything between a triangle and a plain target: tests, blending, masks, culling, viewports. While it
+// lives a triangle is rasterized whole and written as it is to a target of `size` x `size`.
 class PlainRasterGuard {
  public:
   PlainRasterGuard(const ContextFacts&, int size);
@@ -145,7 +144,8 @@ class PlainRasterGuard {
   std::deque<CapabilityGuard> capabilities_;  // stays in place: guards neither move nor copy
 };
 
-// Debug messages: none are made while it lives, so that no callback of the program hears of the agent's calls.
+// Debug messages: none are made while it lives, so that no callback of the program hears of the agent's
+// calls.
 class SilenceGuard {
  public:
   explicit SilenceGuard(const ContextFacts&);

@@ -17,8 +17,14 @@ struct Refusal {
 template <class T>
 using OrRefusal = std::variant<T, Refusal>;
 
-inline Refusal unsupported(std::string text) { return {wire::ErrorKind::Unsupported, std::move(text)}; }
-inline Refusal limit(std::string text) { return {wire::ErrorKind::Limit, std::move(text)}; }
-inline Refusal internal(std::string text) { return {wire::ErrorKind::Internal, std::move(text)}; }
+inline Refusal unsupported(std::string text) {
+  return {wire::ErrorKind::Unsupported, std::move(text)};
+}
+inline Refusal limit(std::string text) {
+  return {wire::ErrorKind::Limit, std::move(text)};
+}
+inline Refusal internal(std::string text) {
+  return {wire::ErrorKind::Internal, std::move(text)};
+}
 
 }  // namespace shadestep::guard

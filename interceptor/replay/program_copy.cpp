@@ -1,4 +1,5 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/replay/program_copy.h"
 
 #include <time.h>
@@ -24,12 +25,18 @@ std::uint64_t now() {
 
 const char* stageWord(GLenum type) {
   switch (type) {
-    case GL_VERTEX_SHADER: return "vertex";
-    case GL_TESS_CONTROL_SHADER: return "tessellation control";
-    case GL_TESS_EVALUATION_SHADER: return "tessellation evaluation";
-    case GL_GEOMETRY_SHADER: return "geometry";
-    case GL_FRAGMENT_SHADER: return "fragment";
-    default: return "compute";
+    case GL_VERTEX_SHADER:
+      return "vertex";
+    case GL_TESS_CONTROL_SHADER:
+      return "tessellation control";
+    case GL_TESS_EVALUATION_SHADER:
+      return "tessellation evaluation";
+    case GL_GEOMETRY_SHADER:
+      return "geometry";
+    case GL_FRAGMENT_SHADER:
+      return "fragment";
+    default:
+      return "compute";
   }
 }
 
@@ -73,7 +80,8 @@ GLuint compile(GLenum type, const std::vector<std::string>& strings, std::string
 }
 
 Refusal doesNotCompile(GLenum type, const std::string& log) {
-  return {wire::ErrorKind::Compile, std::string("the ") + stageWord(type) + " shader does not compile: " + log};
+  return {wire::ErrorKind::Compile,
+          std::string("the ") + stageWord(type) + " shader does not compile: " + log};
 }
 
 // A shader made for one copy: it lives as long as the copy has it attached.
@@ -84,10 +92,12 @@ struct OwnShader {
   }
 };
 
-// ---- before the link: what has to stay where it is -------------------------------------------------------------
+// ---- before the link: what has to stay where it is
+// -------------------------------------------------------------
 
 void bindAttributes(const Original& original, GLuint copy) {
-  for (const auto& [name, location] : original.linked.attributes) gl().BindAttribLocation(copy, location, name.c_str());
+  for (const auto& [name, location] : original.linked.attributes)
+    gl().BindAttribLocation(copy, location, name.c_str());
   GLint count = 0;
   GLint longest = 0;
   gl().GetProgramiv(original.program, GL_ACTIVE_ATTRIBUTES, &count);
@@ -96,9 +106,11 @@ void bindAttributes(const Original& original, GLuint copy) {
   for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
     GLint size = 0;
     GLenum type = 0;
-    gl().GetActiveAttrib(original.program, i, static_cast<GLsizei>(name.size()), nullptr, &size, &type, name.data());
+    gl().GetActiveAttrib(original.program, i, static_cast<GLsizei>(name.size()), nullptr, &size, &type,
+                         name.data());
     const GLint location = gl().GetAttribLocation(original.program, name.data());
-    if (location >= 0) gl().BindAttribLocation(copy, static_cast<GLuint>(location), name.data());  // built-ins: -1
+    if (location >= 0)
+      gl().BindAttribLocation(copy, static_cast<GLuint>(location), name.data());  // built-ins: -1
   }
 }
 
@@ -126,22 +138,25 @@ void copyFeedbackVaryings(GLuint original, GLuint copy) {
 }
 
 // The shader's own outputs keep their locations. Returns the locations taken.
-OrRefusal<std::set<int>> bindUserOutputs(const Original& original, GLuint copy, const std::vector<std::string>& outputs,
-                                         int most) {
+OrRefusal<std::set<int>> bindUserOutputs(const Original& original, GLuint copy,
+                                         const std::vector<std::string>& outputs, int most) {
   std::set<int> taken;
-  const bool indexed = dispatch::available("glGetFragDataIndex") && dispatch::available("glBindFragDataLocationIndexed");
+  const bool indexed =
+      dispatch::available("glGetFragDataIndex") && dispatch::available("glBindFragDataLocationIndexed");
   for (const std::string& name : outputs) {
     const GLint location = gl().GetFragDataLocation(original.program, name.c_str());
     if (location < 0) continue;  // not written by the original
     if (indexed && gl().GetFragDataIndex(original.program, name.c_str()) > 0) {
-      return guard::unsupported("the shader uses dual-source blending, which leaves no draw buffer to capture into");
+      return guard::unsupported(
+          "the shader uses dual-source blending, which leaves no draw buffer to capture into");
     }
     if (dispatch::available("glBindFragDataLocation")) {
       gl().BindFragDataLocation(copy, static_cast<GLuint>(location), name.c_str());
     }
     taken.insert(location);
     for (int i = 1; i < most; ++i) {  // an array's other elements
-      const GLint element = gl().GetFragDataLocation(original.program, (name + "[" + std::to_string(i) + "]").c_str());
+      const GLint element =
+          gl().GetFragDataLocation(original.program, (name + "[" + std::to_string(i) + "]").c_str());
       if (element < 0) break;
       taken.insert(element);
     }
@@ -150,9 +165,12 @@ OrRefusal<std::set<int>> bindUserOutputs(const Original& original, GLuint copy, 
   return taken;
 }
 
-// Finds a draw buffer for every capture: neither an output of the shader nor a buffer of the program's framebuffer.
-OrRefusal<std::vector<capture::CaptureBuffer>> placeCaptures(const guard::ContextFacts& facts, const Original& original,
-                                                             const wire::PrepareT& request, std::set<int> taken) {
+// Finds a draw buffer for every capture: neither an output of the shader nor a buffer of the program's
+// framebuffer.
+OrRefusal<std::vector<capture::CaptureBuffer>> placeCaptures(const guard::ContextFacts& facts,
+                                                             const Original& original,
+                                                             const wire::PrepareT& request,
+                                                             std::set<int> taken) {
   std::vector<capture::CaptureBuffer> placed;
   for (const auto& color : original.target.colors) taken.insert(color.draw_buffer);
   int next = 0;
@@ -160,14 +178,17 @@ OrRefusal<std::vector<capture::CaptureBuffer>> placeCaptures(const guard::Contex
     if (request.first_frag_data >= 0) {
       next = request.first_frag_data + static_cast<int>(i);
       if (taken.count(next) != 0) {
-        return guard::limit("gl_FragData[" + std::to_string(next) + "] is a buffer of the program's own framebuffer");
+        return guard::limit("gl_FragData[" + std::to_string(next) +
+                            "] is a buffer of the program's own framebuffer");
       }
     } else {
       while (taken.count(next) != 0) ++next;
     }
     if (next >= facts.max_draw_buffers) {
-      return guard::limit(std::to_string(request.captures.size()) + " capture buffers beside the program's own are more than the " +
-                          std::to_string(facts.max_draw_buffers) + " draw buffers of this driver; capture less at once");
+      return guard::limit(std::to_string(request.captures.size()) +
+                          " capture buffers beside the program's own are more than the " +
+                          std::to_string(facts.max_draw_buffers) +
+                          " draw buffers of this driver; capture less at once");
     }
     taken.insert(next);
     placed.push_back({next, request.captures[i]->format});
@@ -175,7 +196,8 @@ OrRefusal<std::vector<capture::CaptureBuffer>> placeCaptures(const guard::Contex
   return placed;
 }
 
-// ---- after the link ------------------------------------------------------------------------------------------
+// ---- after the link
+// ------------------------------------------------------------------------------------------
 
 // The driver has the last word on where an output is: a layout in the text overrides what was bound.
 Refusal confirmCaptures(const wire::PrepareT& request, ProgramCopy& copy) {
@@ -183,7 +205,8 @@ Refusal confirmCaptures(const wire::PrepareT& request, ProgramCopy& copy) {
     const std::string& name = request.captures[i]->name;
     if (name.empty() || request.first_frag_data >= 0) continue;
     const GLint location = gl().GetFragDataLocation(copy.program, name.c_str());
-    if (location < 0) return {wire::ErrorKind::Link, "the linked program has no output " + name + " to capture"};
+    if (location < 0)
+      return {wire::ErrorKind::Link, "the linked program has no output " + name + " to capture"};
     copy.captures[i].location = location;
   }
   return {};
@@ -193,14 +216,16 @@ Refusal confirmCaptures(const wire::PrepareT& request, ProgramCopy& copy) {
 Refusal placeStorageBlock(const guard::ContextFacts& facts, const std::string& block, ProgramCopy& copy) {
   if (block.empty()) return {};
   if (!facts.storageBuffers()) {
-    return guard::unsupported("this driver has no storage buffers (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object)");
+    return guard::unsupported(
+        "this driver has no storage buffers (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object)");
   }
   const GLuint index = gl().GetProgramResourceIndex(copy.program, GL_SHADER_STORAGE_BLOCK, block.c_str());
   if (index == GL_INVALID_INDEX) return {};  // the compiler found that nothing is written to it
   constexpr GLenum kBinding = GL_BUFFER_BINDING;
   const auto bindingOf = [&](GLuint resource) {
     GLint binding = 0;
-    gl().GetProgramResourceiv(copy.program, GL_SHADER_STORAGE_BLOCK, resource, 1, &kBinding, 1, nullptr, &binding);
+    gl().GetProgramResourceiv(copy.program, GL_SHADER_STORAGE_BLOCK, resource, 1, &kBinding, 1, nullptr,
+                              &binding);
     return binding;
   };
   if (!dispatch::available("glShaderStorageBlockBinding") || facts.es) {
@@ -238,10 +263,12 @@ int positionAttribute(GLuint program) {
 }
 
 // Attaches every stage of the original, with the requested one replaced.
-Refusal attachReplayStages(const Original& original, const wire::PrepareT& request, ShaderCache& cache, GLuint copy) {
+Refusal attachReplayStages(const Original& original, const wire::PrepareT& request, ShaderCache& cache,
+                           GLuint copy) {
   const GLenum replaced = shaderType(request.stage);
-  const auto of_stage = std::count_if(original.linked.shaders.begin(), original.linked.shaders.end(),
-                                      [&](const calls::LinkedShader& shader) { return shader.type == replaced; });
+  const auto of_stage =
+      std::count_if(original.linked.shaders.begin(), original.linked.shaders.end(),
+                    [&](const calls::LinkedShader& shader) { return shader.type == replaced; });
   if (of_stage == 0) {
     return guard::unsupported(std::string("the program has no ") + stageWord(replaced) + " shader");
   }
@@ -327,7 +354,8 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
 
   if (const Refusal failed = link(copy); !failed.text.empty()) return failed;
   if (const Refusal failed = confirmCaptures(request, copy); !failed.text.empty()) return failed;
-  if (const Refusal failed = placeStorageBlock(facts, request.storage_block, copy); !failed.text.empty()) return failed;
+  if (const Refusal failed = placeStorageBlock(facts, request.storage_block, copy); !failed.text.empty())
+    return failed;
   if (copy.covering) {
     copy.position_attribute = positionAttribute(copy.program);
   } else {
@@ -340,7 +368,8 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
 
 }  // namespace
 
-GLuint ShaderCache::shader(GLenum type, const std::shared_ptr<const calls::CompiledSource>& source, std::string& log) {
+GLuint ShaderCache::shader(GLenum type, const std::shared_ptr<const calls::CompiledSource>& source,
+                           std::string& log) {
   const auto found = shaders_.find(source);
   if (found != shaders_.end()) return found->second;
   const GLuint shader = compile(type, source->strings, log);
@@ -358,18 +387,25 @@ ProgramCopy::~ProgramCopy() {
 
 GLenum shaderType(wire::Stage stage) {
   switch (stage) {
-    case wire::Stage::Vertex: return GL_VERTEX_SHADER;
-    case wire::Stage::TessControl: return GL_TESS_CONTROL_SHADER;
-    case wire::Stage::TessEval: return GL_TESS_EVALUATION_SHADER;
-    case wire::Stage::Geometry: return GL_GEOMETRY_SHADER;
-    case wire::Stage::Fragment: return GL_FRAGMENT_SHADER;
-    case wire::Stage::Compute: return GL_COMPUTE_SHADER;
+    case wire::Stage::Vertex:
+      return GL_VERTEX_SHADER;
+    case wire::Stage::TessControl:
+      return GL_TESS_CONTROL_SHADER;
+    case wire::Stage::TessEval:
+      return GL_TESS_EVALUATION_SHADER;
+    case wire::Stage::Geometry:
+      return GL_GEOMETRY_SHADER;
+    case wire::Stage::Fragment:
+      return GL_FRAGMENT_SHADER;
+    case wire::Stage::Compute:
+      return GL_COMPUTE_SHADER;
   }
   return 0;
 }
 
-OrRefusal<std::unique_ptr<ProgramCopy>> copyProgram(const guard::ContextFacts& facts, const Original& original,
-                                                   const wire::PrepareT& request, ShaderCache& cache) {
+OrRefusal<std::unique_ptr<ProgramCopy>> copyProgram(const guard::ContextFacts& facts,
+                                                    const Original& original, const wire::PrepareT& request,
+                                                    ShaderCache& cache) {
   auto copy = std::make_unique<ProgramCopy>();
   const std::uint64_t start = now();
   Refusal failed = build(facts, original, request, cache, *copy);

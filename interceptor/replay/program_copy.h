@@ -1,9 +1,7 @@
 // A copy of the draw's program in which one stage has another text. Method: Strengert 2010, 7.1.5.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <cstdint>
 #include <map>
@@ -15,6 +13,8 @@
 #include "interceptor/capture/shadow.h"
 #include "interceptor/guard/context_facts.h"
 #include "interceptor/guard/refusal.h"
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 #include "interceptor/replay/uniforms.h"
 #include "wire/messages_generated.h"
 
@@ -43,8 +43,8 @@ struct ProgramCopy {
 
   GLuint program = 0;
   bool covering = false;
-  int colour_outputs = 0;                        // with covering: colour buffers that its target needs
-  int position_attribute = -1;                   // with covering: location of the attribute to feed, -1 = none
+  int colour_outputs = 0;       // with covering: colour buffers that its target needs
+  int position_attribute = -1;  // with covering: location of the attribute to feed, -1 = none
   std::vector<capture::CaptureBuffer> captures;  // in the order of Prepare.captures
   int storage_binding = -1;                      // -1 = no storage block alive
   std::vector<SubroutineChoice> subroutines;
@@ -60,7 +60,7 @@ struct Original {
 
 // Leaves the copy current: the caller holds a ProgramGuard, made while the original was current.
 guard::OrRefusal<std::unique_ptr<ProgramCopy>> copyProgram(const guard::ContextFacts&, const Original&,
-                                                          const wire::PrepareT&, ShaderCache&);
+                                                           const wire::PrepareT&, ShaderCache&);
 
 GLenum shaderType(wire::Stage);
 

@@ -1,10 +1,12 @@
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #include "interceptor/replay/uniforms.h"
 
 #include <algorithm>
 #include <array>
 
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/errors.h"
 
 namespace shadestep::replay {
 namespace {
@@ -21,30 +23,50 @@ struct UniformType {
 };
 
 constexpr std::array kTypes = {
-    UniformType{GL_FLOAT, Scalar::float_, 1, 1},        UniformType{GL_FLOAT_VEC2, Scalar::float_, 2, 1},
-    UniformType{GL_FLOAT_VEC3, Scalar::float_, 3, 1},   UniformType{GL_FLOAT_VEC4, Scalar::float_, 4, 1},
-    UniformType{GL_INT, Scalar::int_, 1, 1},            UniformType{GL_INT_VEC2, Scalar::int_, 2, 1},
-    UniformType{GL_INT_VEC3, Scalar::int_, 3, 1},       UniformType{GL_INT_VEC4, Scalar::int_, 4, 1},
-    UniformType{GL_UNSIGNED_INT, Scalar::uint_, 1, 1},  UniformType{GL_UNSIGNED_INT_VEC2, Scalar::uint_, 2, 1},
-    UniformType{GL_UNSIGNED_INT_VEC3, Scalar::uint_, 3, 1}, UniformType{GL_UNSIGNED_INT_VEC4, Scalar::uint_, 4, 1},
-    UniformType{GL_BOOL, Scalar::int_, 1, 1},           UniformType{GL_BOOL_VEC2, Scalar::int_, 2, 1},
-    UniformType{GL_BOOL_VEC3, Scalar::int_, 3, 1},      UniformType{GL_BOOL_VEC4, Scalar::int_, 4, 1},
-    UniformType{GL_DOUBLE, Scalar::double_, 1, 1},      UniformType{GL_DOUBLE_VEC2, Scalar::double_, 2, 1},
-    UniformType{GL_DOUBLE_VEC3, Scalar::double_, 3, 1}, UniformType{GL_DOUBLE_VEC4, Scalar::double_, 4, 1},
-    UniformType{GL_FLOAT_MAT2, Scalar::float_, 2, 2},   UniformType{GL_FLOAT_MAT3, Scalar::float_, 3, 3},
-    UniformType{GL_FLOAT_MAT4, Scalar::float_, 4, 4},   UniformType{GL_FLOAT_MAT2x3, Scalar::float_, 3, 2},
-    UniformType{GL_FLOAT_MAT2x4, Scalar::float_, 4, 2}, UniformType{GL_FLOAT_MAT3x2, Scalar::float_, 2, 3},
-    UniformType{GL_FLOAT_MAT3x4, Scalar::float_, 4, 3}, UniformType{GL_FLOAT_MAT4x2, Scalar::float_, 2, 4},
-    UniformType{GL_FLOAT_MAT4x3, Scalar::float_, 3, 4}, UniformType{GL_DOUBLE_MAT2, Scalar::double_, 2, 2},
-    UniformType{GL_DOUBLE_MAT3, Scalar::double_, 3, 3}, UniformType{GL_DOUBLE_MAT4, Scalar::double_, 4, 4},
-    UniformType{GL_DOUBLE_MAT2x3, Scalar::double_, 3, 2}, UniformType{GL_DOUBLE_MAT2x4, Scalar::double_, 4, 2},
-    UniformType{GL_DOUBLE_MAT3x2, Scalar::double_, 2, 3}, UniformType{GL_DOUBLE_MAT3x4, Scalar::double_, 4, 3},
-    UniformType{GL_DOUBLE_MAT4x2, Scalar::double_, 2, 4}, UniformType{GL_DOUBLE_MAT4x3, Scalar::double_, 3, 4},
+    UniformType{GL_FLOAT, Scalar::float_, 1, 1},
+    UniformType{GL_FLOAT_VEC2, Scalar::float_, 2, 1},
+    UniformType{GL_FLOAT_VEC3, Scalar::float_, 3, 1},
+    UniformType{GL_FLOAT_VEC4, Scalar::float_, 4, 1},
+    UniformType{GL_INT, Scalar::int_, 1, 1},
+    UniformType{GL_INT_VEC2, Scalar::int_, 2, 1},
+    UniformType{GL_INT_VEC3, Scalar::int_, 3, 1},
+    UniformType{GL_INT_VEC4, Scalar::int_, 4, 1},
+    UniformType{GL_UNSIGNED_INT, Scalar::uint_, 1, 1},
+    UniformType{GL_UNSIGNED_INT_VEC2, Scalar::uint_, 2, 1},
+    UniformType{GL_UNSIGNED_INT_VEC3, Scalar::uint_, 3, 1},
+    UniformType{GL_UNSIGNED_INT_VEC4, Scalar::uint_, 4, 1},
+    UniformType{GL_BOOL, Scalar::int_, 1, 1},
+    UniformType{GL_BOOL_VEC2, Scalar::int_, 2, 1},
+    UniformType{GL_BOOL_VEC3, Scalar::int_, 3, 1},
+    UniformType{GL_BOOL_VEC4, Scalar::int_, 4, 1},
+    UniformType{GL_DOUBLE, Scalar::double_, 1, 1},
+    UniformType{GL_DOUBLE_VEC2, Scalar::double_, 2, 1},
+    UniformType{GL_DOUBLE_VEC3, Scalar::double_, 3, 1},
+    UniformType{GL_DOUBLE_VEC4, Scalar::double_, 4, 1},
+    UniformType{GL_FLOAT_MAT2, Scalar::float_, 2, 2},
+    UniformType{GL_FLOAT_MAT3, Scalar::float_, 3, 3},
+    UniformType{GL_FLOAT_MAT4, Scalar::float_, 4, 4},
+    UniformType{GL_FLOAT_MAT2x3, Scalar::float_, 3, 2},
+    UniformType{GL_FLOAT_MAT2x4, Scalar::float_, 4, 2},
+    UniformType{GL_FLOAT_MAT3x2, Scalar::float_, 2, 3},
+    UniformType{GL_FLOAT_MAT3x4, Scalar::float_, 4, 3},
+    UniformType{GL_FLOAT_MAT4x2, Scalar::float_, 2, 4},
+    UniformType{GL_FLOAT_MAT4x3, Scalar::float_, 3, 4},
+    UniformType{GL_DOUBLE_MAT2, Scalar::double_, 2, 2},
+    UniformType{GL_DOUBLE_MAT3, Scalar::double_, 3, 3},
+    UniformType{GL_DOUBLE_MAT4, Scalar::double_, 4, 4},
+    UniformType{GL_DOUBLE_MAT2x3, Scalar::double_, 3, 2},
+    UniformType{GL_DOUBLE_MAT2x4, Scalar::double_, 4, 2},
+    UniformType{GL_DOUBLE_MAT3x2, Scalar::double_, 2, 3},
+    UniformType{GL_DOUBLE_MAT3x4, Scalar::double_, 4, 3},
+    UniformType{GL_DOUBLE_MAT4x2, Scalar::double_, 2, 4},
+    UniformType{GL_DOUBLE_MAT4x3, Scalar::double_, 3, 4},
 };
 
 // Not the same as an int: not set at all.
-constexpr std::array<GLenum, 8> kSixtyFourBits = {0x140E, 0x8FE9, 0x8FEA, 0x8FEB,   // GL_INT64[_VECn]_ARB
-                                                  0x140F, 0x8FF5, 0x8FF6, 0x8FF7};  // GL_UNSIGNED_INT64[_VECn]_ARB
+constexpr std::array<GLenum, 8> kSixtyFourBits = {
+    0x140E, 0x8FE9, 0x8FEA, 0x8FEB,   // GL_INT64[_VECn]_ARB
+    0x140F, 0x8FF5, 0x8FF6, 0x8FF7};  // GL_UNSIGNED_INT64[_VECn]_ARB
 
 // Samplers and images, whose types are many, are set as one int: the unit.
 constexpr UniformType kOpaque{0, Scalar::int_, 1, 1};
@@ -56,17 +78,27 @@ const UniformType& uniformType(GLenum type) {
   return kOpaque;
 }
 
-bool isImage(GLenum type) { return type >= GL_IMAGE_1D && type <= GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY; }
+bool isImage(GLenum type) {
+  return type >= GL_IMAGE_1D && type <= GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY;
+}
 
 using Words = std::array<std::uint32_t, 32>;  // the largest: dmat4
 
 void get(GLuint program, GLint location, const UniformType& type, Words& words) {
   void* into = words.data();
   switch (type.scalar) {
-    case Scalar::float_: gl().GetUniformfv(program, location, static_cast<GLfloat*>(into)); break;
-    case Scalar::int_: gl().GetUniformiv(program, location, static_cast<GLint*>(into)); break;
-    case Scalar::uint_: gl().GetUniformuiv(program, location, static_cast<GLuint*>(into)); break;
-    case Scalar::double_: gl().GetUniformdv(program, location, static_cast<GLdouble*>(into)); break;
+    case Scalar::float_:
+      gl().GetUniformfv(program, location, static_cast<GLfloat*>(into));
+      break;
+    case Scalar::int_:
+      gl().GetUniformiv(program, location, static_cast<GLint*>(into));
+      break;
+    case Scalar::uint_:
+      gl().GetUniformuiv(program, location, static_cast<GLuint*>(into));
+      break;
+    case Scalar::double_:
+      gl().GetUniformdv(program, location, static_cast<GLdouble*>(into));
+      break;
   }
 }
 
@@ -131,8 +163,8 @@ struct ActiveUniform {
 ActiveUniform activeUniform(GLuint program, GLuint index, std::vector<GLchar>& buffer) {
   ActiveUniform uniform;
   GLsizei length = 0;
-  gl().GetActiveUniform(program, index, static_cast<GLsizei>(buffer.size()), &length, &uniform.size, &uniform.type,
-                        buffer.data());
+  gl().GetActiveUniform(program, index, static_cast<GLsizei>(buffer.size()), &length, &uniform.size,
+                        &uniform.type, buffer.data());
   uniform.name.assign(buffer.data(), static_cast<std::size_t>(length));
   return uniform;
 }
@@ -156,10 +188,12 @@ std::string copyDefaultBlock(const guard::ContextFacts& facts, GLuint original, 
       const std::string name = elementName(uniform, element);
       const GLint from = gl().GetUniformLocation(original, name.c_str());
       const GLint to = gl().GetUniformLocation(copy, name.c_str());
-      if (from < 0 || to < 0) continue;  // built-in, in a block, or not alive in the original
+      if (from < 0 || to < 0) continue;                 // built-in, in a block, or not alive in the original
       if (facts.es && isImage(uniform.type)) continue;  // ES: fixed by the shader's text
       for (const GLenum type : kSixtyFourBits) {
-        if (type == uniform.type) return "the uniform " + uniform.name + " is of a 64-bit integer type, which cannot be carried over yet";
+        if (type == uniform.type)
+          return "the uniform " + uniform.name +
+                 " is of a 64-bit integer type, which cannot be carried over yet";
       }
       const UniformType& type = uniformType(uniform.type);
       alignas(8) Words words{};
@@ -194,7 +228,8 @@ void copyStorageBlocks(GLuint original, GLuint copy) {
   gl().GetProgramInterfaceiv(copy, GL_SHADER_STORAGE_BLOCK, GL_MAX_NAME_LENGTH, &longest);
   std::vector<GLchar> name(static_cast<std::size_t>(longest) + 1);
   for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
-    gl().GetProgramResourceName(copy, GL_SHADER_STORAGE_BLOCK, i, static_cast<GLsizei>(name.size()), nullptr, name.data());
+    gl().GetProgramResourceName(copy, GL_SHADER_STORAGE_BLOCK, i, static_cast<GLsizei>(name.size()), nullptr,
+                                name.data());
     const GLuint index = gl().GetProgramResourceIndex(original, GL_SHADER_STORAGE_BLOCK, name.data());
     if (index == GL_INVALID_INDEX) continue;
     constexpr GLenum kBinding = GL_BUFFER_BINDING;
@@ -229,11 +264,12 @@ std::string setUniforms(GLuint program, const std::vector<std::unique_ptr<wire::
   return "";
 }
 
-std::vector<SubroutineChoice> subroutineChoices(const guard::ContextFacts& facts, GLuint original, GLuint copy) {
+std::vector<SubroutineChoice> subroutineChoices(const guard::ContextFacts& facts, GLuint original,
+                                                GLuint copy) {
   std::vector<SubroutineChoice> choices;
   if (!facts.subroutines()) return choices;
-  for (const GLenum stage : {GL_VERTEX_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER, GL_GEOMETRY_SHADER,
-                             GL_FRAGMENT_SHADER}) {
+  for (const GLenum stage : {GL_VERTEX_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
+                             GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER}) {
     SubroutineChoice choice{static_cast<GLenum>(stage), {}};
     const auto ask = [&](GLuint program, GLenum what) {
       GLint value = 0;
@@ -243,11 +279,14 @@ std::vector<SubroutineChoice> subroutineChoices(const guard::ContextFacts& facts
     const GLint locations = ask(copy, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS);
     if (locations <= 0) continue;
     choice.indices.assign(static_cast<std::size_t>(locations), 0);
-    std::vector<GLchar> name(static_cast<std::size_t>(
-        std::max({ask(copy, GL_ACTIVE_SUBROUTINE_UNIFORM_MAX_LENGTH), ask(original, GL_ACTIVE_SUBROUTINE_MAX_LENGTH), 1}) + 1));
+    std::vector<GLchar> name(
+        static_cast<std::size_t>(std::max({ask(copy, GL_ACTIVE_SUBROUTINE_UNIFORM_MAX_LENGTH),
+                                           ask(original, GL_ACTIVE_SUBROUTINE_MAX_LENGTH), 1}) +
+                                 1));
     const GLint uniforms = ask(copy, GL_ACTIVE_SUBROUTINE_UNIFORMS);
     for (GLuint uniform = 0; uniform < static_cast<GLuint>(uniforms); ++uniform) {
-      gl().GetActiveSubroutineUniformName(copy, choice.stage, uniform, static_cast<GLsizei>(name.size()), nullptr, name.data());
+      gl().GetActiveSubroutineUniformName(copy, choice.stage, uniform, static_cast<GLsizei>(name.size()),
+                                          nullptr, name.data());
       GLint size = 1;
       gl().GetActiveSubroutineUniformiv(copy, choice.stage, uniform, GL_UNIFORM_SIZE, &size);
       const ActiveUniform shape{name.data(), size, 0};
@@ -258,19 +297,22 @@ std::vector<SubroutineChoice> subroutineChoices(const guard::ContextFacts& facts
         if (to < 0 || to >= locations || from < 0) continue;
         GLuint chosen = 0;
         gl().GetUniformSubroutineuiv(choice.stage, from, &chosen);
-        gl().GetActiveSubroutineName(original, choice.stage, chosen, static_cast<GLsizei>(name.size()), nullptr, name.data());
+        gl().GetActiveSubroutineName(original, choice.stage, chosen, static_cast<GLsizei>(name.size()),
+                                     nullptr, name.data());
         const GLuint index = gl().GetSubroutineIndex(copy, choice.stage, name.data());
         if (index != GL_INVALID_INDEX) choice.indices[static_cast<std::size_t>(to)] = index;
       }
     }
     choices.push_back(std::move(choice));
   }
+  guard::clearErrors();  // asking about a stage that the program lacks is an error
   return choices;
 }
 
 void selectSubroutines(const std::vector<SubroutineChoice>& choices) {
   for (const SubroutineChoice& choice : choices) {
-    gl().UniformSubroutinesuiv(choice.stage, static_cast<GLsizei>(choice.indices.size()), choice.indices.data());
+    gl().UniformSubroutinesuiv(choice.stage, static_cast<GLsizei>(choice.indices.size()),
+                               choice.indices.data());
   }
 }
 

@@ -1,9 +1,7 @@
 // Uniform state: from the program's own program into an instrumented copy, and from the session.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
-
-#include <GL/gl.h>
-#include <GL/glext.h>
 
 #include <cstdint>
 #include <memory>
@@ -11,13 +9,16 @@
 #include <vector>
 
 #include "interceptor/guard/context_facts.h"
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::replay {
 
-// Carries over by name: default-block uniforms of all types, element by element, and the bindings of uniform and
-// storage blocks. A uniform that only the copy has alive keeps its initial value, which is also what the original
-// would show: nothing could be given to it. Makes `copy` current. Returns "" or what could not be carried over.
+// Carries over by name: default-block uniforms of all types, element by element, and the bindings of uniform
+// and storage blocks. A uniform that only the copy has alive keeps its initial value, which is also what the
+// original would show: nothing could be given to it. Makes `copy` current. Returns "" or what could not be
+// carried over.
 std::string copyUniforms(const guard::ContextFacts&, GLuint original, GLuint copy);
 
 // Sets uniforms of the current program, which is `program`; names that it does not have alive are skipped.

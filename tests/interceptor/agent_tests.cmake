@@ -1,0 +1,16 @@
+# The agent's tests: a session of the tests' own against small scenes under the preload library.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(GL REQUIRED IMPORTED_TARGET gl egl)
+
+add_executable(agent-scene-osmesa agent_scene_osmesa.cpp)
+target_link_libraries(agent-scene-osmesa PRIVATE PkgConfig::OSMESA)
+add_executable(agent-scene-egl agent_scene_egl.cpp)
+target_link_libraries(agent-scene-egl PRIVATE PkgConfig::GL)
+
+shadestep_test(agent_test SOURCES agent_test.cpp LINKS shadestep-wire LABELS interceptor)
+target_compile_definitions(agent_test PRIVATE
+  PRELOAD_LIBRARY="$<TARGET_FILE:shadestep-gl>"
+  SCENE_OSMESA="$<TARGET_FILE:agent-scene-osmesa>"
+  SCENE_EGL="$<TARGET_FILE:agent-scene-egl>")
+add_dependencies(agent_test shadestep-gl agent-scene-osmesa agent-scene-egl)
