@@ -41,7 +41,7 @@ TokenIndex firstDeclaration(const std::vector<Token>& tokens) {
 SyntaxFacts askGlslang(Stage stage, const Preprocessed& preprocessed, bool es, const Skeleton& skeleton) {
   SyntaxFacts best;
   bool first = true;
-  for (const Dialect& dialect : dialects(preprocessed, es)) {
+  for (const Dialect& dialect : dialects(stage, preprocessed, es)) {
     SyntaxFacts facts = readSyntaxTree(stage, buildAnalysedText(preprocessed.tokens, skeleton, dialect));
     if (facts.error.empty()) return facts;
     if (first || facts.error_token > best.error_token) best = std::move(facts);

@@ -91,10 +91,15 @@ class Builder {
 
 }  // namespace
 
-std::vector<Dialect> dialects(const Preprocessed& preprocessed, bool es) {
+std::vector<Dialect> dialects(Stage stage, const Preprocessed& preprocessed, bool es) {
   const std::string number = std::to_string(preprocessed.version);
   std::vector<Dialect> result;
-  result.push_back({number + (preprocessed.profile.empty() ? "" : " " + preprocessed.profile), true, false});
+  // glslang prints to stdout where a version lacks the stage altogether.
+  const bool has_stage = stage != Stage::compute || preprocessed.version >= (es ? 310 : 430);
+  if (has_stage) {
+    result.push_back(
+        {number + (preprocessed.profile.empty() ? "" : " " + preprocessed.profile), true, false});
+  }
   if (es) {
     result.push_back({"320 es", false, true});
   } else {

@@ -32,7 +32,7 @@ struct Dialect {
   bool keep_extensions = true;   // false: drop #extension lines, the raised version has it all
   bool rename_keywords = false;  // the shader's names that the raised version took as keywords
 };
-std::vector<Dialect> dialects(const Preprocessed& preprocessed, bool es);
+std::vector<Dialect> dialects(Stage stage, const Preprocessed& preprocessed, bool es);
 
 AnalysedText buildAnalysedText(const std::vector<Token>& tokens, const Skeleton& skeleton,
                                const Dialect& dialect);

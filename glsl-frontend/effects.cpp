@@ -156,23 +156,31 @@ class Combiner {
     return result;
   }
 
-  // A function that another shader object of the program defines.
+  // A function that another shader object of the program defines: the one with the arguments' types, or the
+  // only one with as many parameters.
   FunctionId declaredOnly(const UserCall& call, const CallSite& site) {
-    FunctionId found = kNone;
+    const std::string& name = at(shader_.tokens, site.name).text;
+    std::string signature = name + "(";
+    for (std::size_t i = 0; i < call.arguments.size(); ++i) {
+      signature += (i > 0 ? "," : "") + glslName(call.arguments[i]);
+    }
+    signature += ")";
+    std::vector<FunctionId> candidates;
     for (std::size_t i = 0; i < shader_.functions.size(); ++i) {
       const Function& function = shader_.functions[i];
-      if (function.body != kNone || function.name != at(shader_.tokens, site.name).text ||
-          function.parameters.size() != site.arguments.size()) {
-        continue;
+      if (function.body != kNone || function.name != name) continue;
+      if (function.parameters.size() != site.arguments.size()) continue;
+      if (function.signature == signature) {
+        candidates.assign(1, static_cast<FunctionId>(i));
+        break;
       }
-      if (found != kNone) {
-        throw Disagreement{placeOf(site.name), "it is not clear which '" + function.name + "' is called"};
-      }
-      found = static_cast<FunctionId>(i);
+      candidates.push_back(static_cast<FunctionId>(i));
     }
-    if (found == kNone) throw Disagreement{placeOf(site.name), "the called function could not be found"};
-    at(shader_.functions, found).return_type = call.type;
-    return found;
+    if (candidates.size() != 1) {
+      throw Disagreement{placeOf(site.name), "it is not clear which '" + name + "' is called"};
+    }
+    at(shader_.functions, candidates.front()).return_type = call.type;
+    return candidates.front();
   }
 
   // ---- side effects

@@ -357,8 +357,16 @@ class Parser {
     return function_ == kNone ? Storage::global : Storage::local;
   }
 
-  // Declares a name and makes it visible. Globals and built-ins may be declared again (with a size, a layout,
-  // ...).
+  // The variable of this name that the innermost scope already holds.
+  VariableId declaredHere(const std::string& name) const {
+    const auto found = meanings_.find(name);
+    if (found == meanings_.end() || found->second.empty() || found->second.back().depth != depth_)
+      return kNone;
+    return found->second.back().variable;
+  }
+
+  // Declares a name and makes it visible. A name may be declared again in its own scope: to size an array, to
+  // qualify a built-in, ...
   VariableId declare(const Qualifiers& qualifiers, TokenIndex name_token) {
     const std::string& name = tokens_[static_cast<std::size_t>(name_token)].text;
     if (isBuiltinName(name)) {
@@ -366,12 +374,10 @@ class Parser {
       out_.resolved[static_cast<std::size_t>(name_token)] = variable;
       return variable;
     }
-    if (depth_ == 0) {
-      const VariableId before = lookup(name);
-      if (before != kNone) {
-        out_.resolved[static_cast<std::size_t>(name_token)] = before;
-        return before;
-      }
+    const VariableId before = declaredHere(name);
+    if (before != kNone) {
+      out_.resolved[static_cast<std::size_t>(name_token)] = before;
+      return before;
     }
     const VariableId variable = newVariable(name, storageOf(qualifiers, name), name_token);
     bind(name, variable);
@@ -440,7 +446,7 @@ class Parser {
   // invariant a, b;
   void redeclaredNames() {
     while (!is(";")) {
-      if (atEnd()) fail("");
+      if (!isName() && !is(",")) fail("'" + text() + "' does not fit into a declaration");
       if (isName()) resolve(current());
       ++at_;
     }
@@ -659,8 +665,12 @@ class Parser {
     const Position start = at_;
     const DeclarationHead head = declarationHead();
     statementRef(id).type_tokens = range(start, at_ - 1);
+    if (!head.has_type) {  // precise a, b;
+      redeclaredNames();
+      statementRef(id).type_tokens = range(start, at_ - 2);
+      return close(id);
+    }
     if (!is(";")) {
-      if (!head.has_type) fail("'" + text() + "' does not fit into a declaration");
       if (is("(", 1)) return localPrototype(id);
       std::vector<Declarator> names = declarators(head.qualifiers, ";");
       mention(names, tokenAfterSemicolon());

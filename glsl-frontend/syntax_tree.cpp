@@ -35,6 +35,19 @@ EShLanguage languageOf(Stage stage) {
   return EShLangFragment;
 }
 
+// Limits decide what is refused. A limit of the driver that is higher must not stop the analysis.
+const TBuiltInResource& generousLimits() {
+  static const TBuiltInResource kLimits = [] {
+    TBuiltInResource limits = *GetDefaultResources();
+    limits.maxAtomicCounterBindings = 64;
+    limits.maxCombinedAtomicCounterBuffers = 64;
+    limits.maxFragmentAtomicCounterBuffers = 64;
+    limits.maxDualSourceDrawBuffersEXT = 8;
+    return limits;
+  }();
+  return kLimits;
+}
+
 // ---- types
 // ----------------------------------------------------------------------------------------------------
 
@@ -316,8 +329,7 @@ class TreeReader {
     const glslang::TOperator op = aggregate.getOp();
     noteTraits(op);
     if (op == glslang::EOpFunctionCall && aggregate.isUserDefined()) {
-      facts_.calls.push_back(
-          {originOf(aggregate).token, aggregate.getName().c_str(), types_.read(aggregate.getType())});
+      noteCall(aggregate);
     }
     const glslang::TQualifierList& qualifiers = aggregate.getQualifierList();
     const glslang::TIntermSequence& arguments = aggregate.getSequence();
@@ -330,6 +342,16 @@ class TreeReader {
         read(arguments[i]);
       }
     }
+  }
+
+  void noteCall(glslang::TIntermAggregate& aggregate) {
+    UserCall call{
+        originOf(aggregate).token, aggregate.getName().c_str(), types_.read(aggregate.getType()), {}};
+    for (TIntermNode* argument : aggregate.getSequence()) {
+      const glslang::TIntermTyped* typed = argument ? argument->getAsTyped() : nullptr;
+      call.arguments.push_back(typed ? types_.read(typed->getType()) : Type());
+    }
+    facts_.calls.push_back(std::move(call));
   }
 
   void noteTraits(glslang::TOperator op) {
@@ -373,7 +395,7 @@ SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text) {
   shader.setStrings(&string, 1);
   const auto messages =
       static_cast<EShMessages>(EShMsgRelaxedErrors | EShMsgSuppressWarnings | EShMsgKeepUncalled);
-  const bool taken = shader.parse(GetDefaultResources(), text.es ? 100 : 110, false, messages);
+  const bool taken = shader.parse(&generousLimits(), text.es ? 100 : 110, false, messages);
   if (!taken) {
     readError(shader.getInfoLog(), text, facts);
     return facts;

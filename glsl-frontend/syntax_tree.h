@@ -26,6 +26,7 @@ struct UserCall {
   TokenIndex close = kNone;  // the closing parenthesis
   std::string callee;        // glslang's mangled name
   Type type;
+  std::vector<Type> arguments;  // after conversion to the parameters' types, except for `out` ones
 };
 
 struct UserFunction {
