@@ -4,10 +4,10 @@
 #include <dlfcn.h>
 #include <link.h>
 
-#include <cstdint>
 #include <cstring>
 
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/dispatch/libc_hooks.h"
 #include "interceptor/dispatch/resolve.h"
 
 namespace shadestep::dispatch {
@@ -67,27 +67,15 @@ Function ours(const char* name, Function real) {
 
 }  // namespace shadestep::dispatch
 
-namespace dispatch = shadestep::dispatch;
-
-extern "C" {
-
-// Two words: returned in registers.
-struct ShadestepLookup {
-  void* result;             // if answered, what dlsym returns; else libc's own dlsym, which must answer
-  std::uintptr_t answered;  // 0 or 1
-};
-
-// Called by the exported dlsym (dlsym_*) with the address that it will return to.
-[[gnu::visibility("hidden")]] ShadestepLookup shadestepLookup(void* handle, const char* name,
-                                                              const void* caller) {
-  const ShadestepLookup passOn{dispatch::addressOfRealDlsym(), 0};
-  if (!name || !dispatch::canBeGl(name) || dispatch::insideDriver()) return passOn;
-  const dispatch::Wrapper* wrapper = dispatch::findWrapper(name);
-  if (!wrapper || (handle == RTLD_NEXT && dispatch::isHook(caller, name))) return passOn;
-  void* real = dispatch::withoutUs(handle, name, caller, wrapper->function);
+LibcAnswer shadestepDlsym(void* handle, const char* name, const void* caller) {
+  using namespace shadestep::dispatch;
+  const LibcAnswer pass_on{addressOfReal("dlsym"), 0};
+  if (!name || !canBeGl(name) || insideDriver()) return pass_on;
+  const Wrapper* wrapper = findWrapper(name);
+  if (!wrapper || (handle == RTLD_NEXT && isHook(caller, name))) return pass_on;
+  void* real = withoutUs(handle, name, caller, wrapper->function);
   if (!real) return {nullptr, 1};
   dlerror();  // of a look-up that did not matter
-  dispatch::adopt(*wrapper, reinterpret_cast<dispatch::Function>(real));
+  adopt(*wrapper, reinterpret_cast<Function>(real));
   return {reinterpret_cast<void*>(wrapper->function), 1};
-}
 }

@@ -154,17 +154,21 @@ Function orElse(Function found, const std::atomic<Function>& known) {
 }  // namespace
 
 // The versions: since it is in libc proper, and of the former libdl.
-void* addressOfRealDlsym() {
-  static std::atomic<void*> known;
-  void* found = known.load(std::memory_order_relaxed);
+void* addressOfReal(const char* libc_function) {
   for (const char* version : {"GLIBC_2.34", "GLIBC_2.2.5", "GLIBC_2.17"})
-    if (!found) found = dlvsym(RTLD_NEXT, "dlsym", version);
-  known.store(found, std::memory_order_relaxed);
-  return found;
+    if (void* found = dlvsym(RTLD_NEXT, libc_function, version)) return found;
+  return nullptr;
 }
 
 void* realDlsym(void* handle, const char* name) {
-  return reinterpret_cast<void* (*)(void*, const char*)>(addressOfRealDlsym())(handle, name);
+  using Dlsym = void* (*)(void*, const char*);
+  static std::atomic<Dlsym> known;
+  Dlsym function = known.load(std::memory_order_relaxed);
+  if (!function) {
+    function = reinterpret_cast<Dlsym>(addressOfReal("dlsym"));
+    known.store(function, std::memory_order_relaxed);
+  }
+  return function(handle, name);
 }
 
 GlTable* tableOf(Provider provider) {

@@ -6,9 +6,9 @@
 
 namespace shadestep::dispatch {
 
-// libc's own dlsym, which we hide.
+// libc's own dlsym or dlopen, which ours hide.
+void* addressOfReal(const char* libc_function);
 void* realDlsym(void* handle, const char* name);
-void* addressOfRealDlsym();
 
 // The table of a provider's functions; the same for all its contexts.
 GlTable* tableOf(Provider provider);

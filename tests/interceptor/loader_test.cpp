@@ -76,6 +76,9 @@ TEST(Loader, LinkedWithEgl) {
 TEST(Loader, OsmesaByDlopen) {
   compare("opened-osmesa");
 }
+TEST(Loader, PluginWithDeepBinding) {
+  compare("deep-binding");
+}
 TEST(Loader, NamesThatAreNotThere) {
   compare("lookups");
 }

@@ -44,6 +44,8 @@ int main() {
   loader::require(display && eglInitialize(display, nullptr, nullptr), "no surfaceless display");
   run(display, EGL_OPENGL_API, EGL_OPENGL_BIT);
   run(display, EGL_OPENGL_ES_API, EGL_OPENGL_ES2_BIT);
+  // A name that is known, of a function that Mesa does not have.
+  std::printf("lacking: %s\n", eglGetProcAddress("eglQueryNativeDisplayNV") ? "found" : "null");
   loader::tellWhose("eglMakeCurrent", &eglMakeCurrent);
   eglTerminate(display);
 }
