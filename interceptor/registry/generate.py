@@ -28,7 +28,7 @@ def outputs(apis: list[model.Api], shards: int) -> dict[str, tuple[str, dict]]:
         "gl_enums.h": ("gl_enums.h.jinja", {}),
         "gl_declarations.h": ("declarations.h.jinja", {}),
         "commands.cpp": ("commands.cpp.jinja", {}),
-        "hook_defaults.cpp": ("hook_defaults.cpp.jinja", {}),
+        "idle_hooks.cpp": ("idle_hooks.cpp.jinja", {}),
     }
     for api in apis:
         files[f"{api.name}_table.h"] = ("table.h.jinja", {"api": api})
