@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "shaders.h"
+#include "osmesa_draw.h"
 
 namespace shadestep::instrumenter::test {
 namespace {
