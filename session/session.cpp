@@ -240,7 +240,7 @@ DrawStop Session::runTo(std::uint64_t frame, std::uint64_t draw) {
   const auto message = state_->programs.waitForStop(state_->deadline);
   if (message == nullptr) {
     const LastSeen& last = state_->programs.lastSeen();
-    if (last.orderly && last.frame == frame) {
+    if (last.used_gl && last.orderly && last.frame == frame) {
       throw Error(Outcome::nothing_matches, "no draw " + std::to_string(draw) + " in frame " +
                                                 std::to_string(frame) + ", which " +
                                                 ordinalDraws(last.draws));

@@ -29,6 +29,10 @@ struct Case {
   std::string words;
 };
 
+void PrintTo(const Case& given, std::ostream* out) {
+  *out << given.name;
+}
+
 class BadInput : public testing::TestWithParam<Case> {};
 
 TEST_P(BadInput, IsSaidWithItsExitCode) {
@@ -46,25 +50,46 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NeitherThreadNorPlace", {"debug"}, kRaycaster, 2, "--pixel"},
         Case{"PixelIsNoPixel", {"debug", "--pixel", "middle"}, kRaycaster, 2, "--pixel"},
         Case{"NoSuchStageName", {"debug", "--pixel", "1,1", "--stage", "pixel"}, kRaycaster, 2, "pixel"},
-        Case{"NoGlInIt", {"debug", "--pixel", "1,1"}, {binary("programs/no-gl")}, 5, "without using OpenGL"},
+        Case{"NoGlInIt",
+             {"debug", "--json", "--pixel", "1,1"},
+             {binary("programs/no-gl")},
+             5,
+             "without using OpenGL"},
         Case{"NoSuchFrame", {"debug", "--frame", "7", "--pixel", "1,1"}, kRaycaster, 5, "before frame 7"},
         Case{"NoSuchDraw", {"debug", "--draw", "9", "--pixel", "1,1"}, kRaycaster, 3, "has 1 draw: 0"},
         Case{"PixelOutside", {"debug", "--pixel", "32,0"}, kRaycaster, 3, "32 x 32"},
         Case{"PixelNotCovered", {"debug", "--pixel", "0,0"}, kRaycaster, 3, "no fragment on pixel 0,0"},
         Case{"NoSuchLine", {"debug", "--at", "9999", "--print", "dst"}, kRaycaster, 3, "hold statements"},
-        Case{"NoSuchVariable", {"debug", "--at", "64", "--print", "nothing_like_it"}, kRaycaster, 3, "nothing_like_it"},
-        Case{"NoSuchIteration", {"debug", "--at", "67", "--iteration", "4000", "--print", "pos"}, kRaycaster, 3, "none of the"},
-        Case{"TooManyIterations", {"debug", "--at", "67", "--iteration", "1,2", "--print", "pos"}, kRaycaster, 3, "lies in 1 loop"},
+        Case{"NoSuchVariable",
+             {"debug", "--at", "65", "--print", "nothing_like_it"},
+             kRaycaster,
+             3,
+             "nothing_like_it"},
+        Case{"NoSuchIteration",
+             {"debug", "--at", "67", "--iteration", "4000", "--print", "pos"},
+             kRaycaster,
+             3,
+             "none of the"},
+        Case{"TooManyIterations",
+             {"debug", "--at", "67", "--iteration", "1,2", "--print", "pos"},
+             kRaycaster,
+             3,
+             "lies in 1 loop"},
         Case{"NoSuchLoop", {"loops", "--at", "1"}, kRaycaster, 3, "there are loops at line"},
         Case{"StageNotThere", {"source", "--stage", "geometry"}, kRaycaster, 3, "vertex, fragment"},
-        Case{"StageNotYet", {"debug", "--stage", "vertex", "--pixel", "16,16"}, kRaycaster, 4, "fragment shaders only"},
+        Case{"StageNotYet",
+             {"debug", "--stage", "vertex", "--pixel", "16,16"},
+             kRaycaster,
+             4,
+             "fragment shaders only"},
         Case{"FixedFunction", {"debug", "--pixel", "1,1"}, {binary("programs/fixed-function")}, 4, "fixed"},
         Case{"EndsEarly", {"debug", "--pixel", "1,1"}, {binary("programs/no-draw")}, 3, "no draw"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& given) { return given.param.name; });
 
 TEST(EndToEnd, ACrashBeforeTheDrawIsSaidAsSuch) {
   const Scratch scratch;
-  const Finished finished = scratch.shadestep({"debug", "--pixel", "1,1"}, {binary("programs/crash"), "before"});
+  const Finished finished =
+      scratch.shadestep({"debug", "--pixel", "1,1"}, {binary("programs/crash"), "before"});
   expectRefusal(finished, 5, "signal 11");
 }
 
@@ -72,11 +97,13 @@ TEST(EndToEnd, NoProcessIsLeftBehind) {
   const Scratch scratch;
   // The program, which would run for hours, is found again by a mark in its environment.
   const std::string mark = "SHADESTEP_TEST_MARK=" + scratch.path().filename().string();
-  const Finished debugged = scratch.shadestep({"debug", "--pixel", "16,16", "--json"},
-                                              {"env", mark, binary("raycaster"), "--size", "32", "--frames", "1000000"});
+  const Finished debugged =
+      scratch.shadestep({"debug", "--pixel", "16,16", "--json"},
+                        {"env", mark, binary("raycaster"), "--size", "32", "--frames", "1000000"});
   EXPECT_EQ(debugged.status, 0) << debugged.err;
   for (const auto& process : std::filesystem::directory_iterator("/proc")) {
-    EXPECT_EQ(readFile(process.path() / "environ").find(mark), std::string::npos) << process.path() << " still runs";
+    EXPECT_EQ(readFile(process.path() / "environ").find(mark), std::string::npos)
+        << process.path() << " still runs";
   }
 }
 

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string quoted(const std::string& text) {
-  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-,=:+") == std::string::npos &&
+  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-,=:+") ==
+          std::string::npos &&
       !text.empty()) {
     return text;
   }
@@ -29,7 +30,9 @@ std::string quoted(const std::string& text) {
 
 Json Finished::json() const {
   Json document = Json::parse(out, nullptr, false);
-  EXPECT_FALSE(document.is_discarded()) << "no JSON from: " << command << "\nstdout:\n" << out.substr(0, 2000) << "\nstderr:\n" << err;
+  EXPECT_FALSE(document.is_discarded()) << "no JSON from: " << command << "\nstdout:\n"
+                                        << out.substr(0, 2000) << "\nstderr:\n"
+                                        << err;
   return document.is_discarded() ? Json::object() : document;
 }
 
@@ -59,10 +62,13 @@ std::vector<std::string> Scratch::files() const {
 
 Finished Scratch::run(const std::vector<std::string>& command) const {
   Finished finished;
-  for (const std::string& word : command) finished.command += (finished.command.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : command)
+    finished.command += (finished.command.empty() ? "" : " ") + quoted(word);
   const std::string out = file(".run-out");
   const std::string err = file(".run-err");
-  const int raw = std::system(("cd " + quoted(path_.string()) + " && " + finished.command + " >" + quoted(out) + " 2>" + quoted(err)).c_str());
+  const int raw = std::system(
+      ("cd " + quoted(path_.string()) + " && " + finished.command + " >" + quoted(out) + " 2>" + quoted(err))
+          .c_str());
   finished.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
   finished.out = readFile(out);
   finished.err = readFile(err);
@@ -71,14 +77,17 @@ Finished Scratch::run(const std::vector<std::string>& command) const {
   return finished;
 }
 
-Finished Scratch::shadestep(std::vector<std::string> arguments, const std::vector<std::string>& program) const {
+Finished Scratch::shadestep(std::vector<std::string> arguments,
+                            const std::vector<std::string>& program) const {
   arguments.insert(arguments.begin(), binary("shadestep"));
   arguments.emplace_back("--");
   arguments.insert(arguments.end(), program.begin(), program.end());
   return run(arguments);
 }
 
-std::string binary(const std::string& name) { return std::string(SHADESTEP_TEST_BINARIES) + "/" + name; }
+std::string binary(const std::string& name) {
+  return std::string(SHADESTEP_TEST_BINARIES) + "/" + name;
+}
 
 std::vector<std::string> underX(std::vector<std::string> command) {
   command.insert(command.begin(), {"xvfb-run", "-a"});

@@ -17,29 +17,34 @@ namespace {
 
 constexpr int kSize = 64;
 
-struct Setup {
+struct Variant {
   std::string context, glsl;
 };
 
-std::vector<std::string> raycaster(const Setup& setup, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> command = {binary("raycaster"), "--context", setup.context, "--glsl", setup.glsl,
-                                      "--size", std::to_string(kSize), "--step", "0.02"};
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << variant.context << " " << variant.glsl;
+}
+
+std::vector<std::string> raycaster(const Variant& variant, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> command = {
+      binary("raycaster"),   "--context", variant.context, "--glsl", variant.glsl, "--size",
+      std::to_string(kSize), "--step",    "0.02"};
   command.insert(command.end(), more.begin(), more.end());
   return command;
 }
 
-Finished shadestep(const Scratch& scratch, const Setup& setup, std::vector<std::string> arguments,
+Finished shadestep(const Scratch& scratch, const Variant& variant, std::vector<std::string> arguments,
                    const std::vector<std::string>& more = {}) {
   arguments.insert(arguments.begin(), binary("shadestep"));
   arguments.emplace_back("--");
-  const auto program = raycaster(setup, more);
+  const auto program = raycaster(variant, more);
   arguments.insert(arguments.end(), program.begin(), program.end());
-  return scratch.run(setup.context == "glx" ? underX(arguments) : arguments);
+  return scratch.run(variant.context == "glx" ? underX(arguments) : arguments);
 }
 
 // The line of the fragment shader that contains `text`, by the tool's own listing.
-int lineWith(const Scratch& scratch, const Setup& setup, const std::string& text) {
-  const Json source = shadestep(scratch, setup, {"source", "--json"}).json();
+int lineWith(const Scratch& scratch, const Variant& variant, const std::string& text) {
+  const Json source = shadestep(scratch, variant, {"source", "--json"}).json();
   int number = 0;
   for (const auto& line : source["lines"]) {
     ++number;
@@ -49,21 +54,25 @@ int lineWith(const Scratch& scratch, const Setup& setup, const std::string& text
   return 0;
 }
 
-std::uint32_t bitsOf(const std::string& text) { return std::bit_cast<std::uint32_t>(std::strtof(text.c_str(), nullptr)); }
+std::uint32_t bitsOf(const std::string& text) {
+  return std::bit_cast<std::uint32_t>(std::strtof(text.c_str(), nullptr));
+}
 
-class Raycaster : public testing::TestWithParam<Setup> {};
+class Raycaster : public testing::TestWithParam<Variant> {};
 
 // For every covered pixel the last value of the accumulated colour is the program's own output, bit for bit.
 TEST_P(Raycaster, LastColourIsTheProgramsOutput) {
   const Scratch scratch;
-  const Setup& setup = GetParam();
-  const auto plain = raycaster(setup, {"--out", scratch.file("plain.raw")});
-  ASSERT_EQ(scratch.run(setup.context == "glx" ? underX(plain) : plain).status, 0);
+  const Variant& variant = GetParam();
+  const auto plain = raycaster(variant, {"--out", scratch.file("plain.raw")});
+  ASSERT_EQ(scratch.run(variant.context == "glx" ? underX(plain) : plain).status, 0);
   const std::string raw = readFile(scratch.file("plain.raw"));
   ASSERT_EQ(raw.size(), std::size_t{kSize} * kSize * 16);
 
-  const int last = lineWith(scratch, setup, "Color = dst;");
-  const Finished debugged = shadestep(scratch, setup, {"debug", "--at", std::to_string(last), "--print", "dst", "--csv", "dst.csv", "--json"});
+  const int last = lineWith(scratch, variant, "Color = dst;");
+  const Finished debugged =
+      shadestep(scratch, variant,
+                {"debug", "--at", std::to_string(last), "--print", "dst", "--csv", "dst.csv", "--json"});
   ASSERT_EQ(debugged.status, 0) << debugged.err;
   const Json document = debugged.json();
   EXPECT_EQ(document["check"]["outputs"], "identical");
@@ -76,8 +85,10 @@ TEST_P(Raycaster, LastColourIsTheProgramsOutput) {
     const int x = std::stoi(row[0]);
     const int y = std::stoi(row[1]);
     std::uint32_t expected[4];
-    std::memcpy(expected, raw.data() + (static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x)) * 16, 16);
-    for (std::size_t c = 0; c < 4; ++c) ASSERT_EQ(bitsOf(row[2 + c]), expected[c]) << "pixel " << x << "," << y << " component " << c;
+    std::memcpy(expected,
+                raw.data() + (static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x)) * 16, 16);
+    for (std::size_t c = 0; c < 4; ++c)
+      ASSERT_EQ(bitsOf(row[2 + c]), expected[c]) << "pixel " << x << "," << y << " component " << c;
     opaque += std::bit_cast<float>(expected[3]) > 0.5f ? 1 : 0;
   }
   EXPECT_GT(opaque, 100u) << "the image should not be empty";
@@ -86,8 +97,9 @@ TEST_P(Raycaster, LastColourIsTheProgramsOutput) {
 // Iterations per thread, without early termination, are the length of the ray in steps, computed on the CPU.
 TEST_P(Raycaster, IterationCountsFollowFromTheRaysLength) {
   const Scratch scratch;
-  const Setup& setup = GetParam();
-  const Finished looped = shadestep(scratch, setup, {"loops", "--json", "--iterations-image", "iterations.exr"}, {"--ert", "0"});
+  const Variant& variant = GetParam();
+  const Finished looped = shadestep(
+      scratch, variant, {"loops", "--json", "--iterations-image", "iterations.exr"}, {"--ert", "0"});
   ASSERT_EQ(looped.status, 0) << looped.err;
   const Json loop = looped.json()["loops"][0];
 
@@ -114,13 +126,14 @@ TEST_P(Raycaster, IterationCountsFollowFromTheRaysLength) {
   EXPECT_EQ(loop["max"].get<long>(), expected.rbegin()->first);
 }
 
-// The recording of one pixel and single probes over all pixels agree bit for bit, at several places and iterations.
+// The recording of one pixel and single probes over all pixels agree bit for bit, at several places and
+// iterations.
 TEST_P(Raycaster, TheTwoPlansAgree) {
   const Scratch scratch;
-  const Setup& setup = GetParam();
-  const Json run = shadestep(scratch, setup, {"debug", "--pixel", "30,34", "--json"}).json();
+  const Variant& variant = GetParam();
+  const Json run = shadestep(scratch, variant, {"debug", "--pixel", "30,34", "--json"}).json();
   ASSERT_EQ(run["check"]["outputs"], "identical");
-  const int line = lineWith(scratch, setup, "scalarOld = scalar;");
+  const int line = lineWith(scratch, variant, "scalarOld = scalar;");
 
   std::size_t compared = 0;
   for (const int iteration : {0, 1, 7, 15}) {
@@ -136,9 +149,12 @@ TEST_P(Raycaster, TheTwoPlansAgree) {
       for (const auto& [name, value] : step["changed"].items()) known[name] = value["value"];
     }
     ASSERT_TRUE(found) << "iteration " << iteration;
-    const Json values = shadestep(scratch, setup, {"debug", "--at", std::to_string(line), "--iteration", std::to_string(iteration),
-                                                   "--pixel", "30,34", "--print", "dst,src,pos,scalar,scalarOld,thickness,i", "--json"})
-                            .json()["values"];
+    const Json values =
+        shadestep(scratch, variant,
+                  {"debug", "--at", std::to_string(line), "--iteration", std::to_string(iteration), "--pixel",
+                   "30,34", "--print", "dst,src,pos,scalar,scalarOld,thickness,i", "--json"},
+                  to_the_end)
+            .json()["values"];
     for (const auto& [name, value] : values.items()) {
       ASSERT_TRUE(known.count(name)) << name << " is not in the recording";
       EXPECT_EQ(value["at_pixel"], known[name]) << name << " in iteration " << iteration;
@@ -162,28 +178,32 @@ TEST_P(Raycaster, TheRunEndsWithThePixelsColour) {
 // The program's own final image is the same with and without the debugger.
 TEST_P(Raycaster, TheImageIsTheSameUnderTheDebugger) {
   const Scratch scratch;
-  const Setup& setup = GetParam();
-  const auto plain = raycaster(setup, {"--frames", "2", "--out", "plain.raw"});
-  ASSERT_EQ(scratch.run(setup.context == "glx" ? underX(plain) : plain).status, 0);
+  const Variant& variant = GetParam();
+  const auto plain = raycaster(variant, {"--frames", "2", "--out", "plain.raw"});
+  ASSERT_EQ(scratch.run(variant.context == "glx" ? underX(plain) : plain).status, 0);
   const std::string expected = readFile(scratch.file("plain.raw"));
   ASSERT_FALSE(expected.empty());
 
-  const Finished every = shadestep(scratch, setup, {"run", "--every-draw", "--json"}, {"--frames", "2", "--out", "every.raw"});
+  const Finished every =
+      shadestep(scratch, variant, {"run", "--every-draw", "--json"}, {"--frames", "2", "--out", "every.raw"});
   EXPECT_EQ(every.status, 0) << every.err;
   EXPECT_EQ(every.json()["debugged"], 2) << every.err;
   EXPECT_TRUE(readFile(scratch.file("every.raw")) == expected);
 
-  const Finished stepped = shadestep(scratch, setup, {"debug", "--pixel", "30,34", "--continue", "--json"}, {"--frames", "2", "--out", "stepped.raw"});
+  const Finished stepped = shadestep(scratch, variant, {"debug", "--pixel", "30,34", "--continue", "--json"},
+                                     {"--frames", "2", "--out", "stepped.raw"});
   EXPECT_EQ(stepped.status, 0) << stepped.err;
   EXPECT_TRUE(readFile(scratch.file("stepped.raw")) == expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(EndToEnd, Raycaster,
-                         testing::Values(Setup{"osmesa", "120"}, Setup{"osmesa", "330"}, Setup{"egl", "120"}, Setup{"egl", "330"},
-                                         Setup{"glx", "120"}, Setup{"glx", "330"}),
-                         [](const auto& info) { return info.param.context + info.param.glsl; });
+                         testing::Values(Variant{"osmesa", "120"}, Variant{"osmesa", "330"},
+                                         Variant{"egl", "120"}, Variant{"egl", "330"}, Variant{"glx", "120"},
+                                         Variant{"glx", "330"}),
+                         [](const auto& variant) { return variant.param.context + variant.param.glsl; });
 
-// Three contexts and both GLSL versions give the same run of a pixel (but for what the versions spell differently).
+// Three contexts and both GLSL versions give the same run of a pixel (but for what the versions spell
+// differently).
 TEST(EndToEnd, ContextsAndGlslVersionsGiveTheSameRun) {
   const Scratch scratch;
   std::map<std::string, std::vector<Json>> runs;

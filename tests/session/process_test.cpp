@@ -30,7 +30,8 @@ TEST(Process, LaysTheEnvironmentOverOurs) {
   ASSERT_EQ(setenv("SHADESTEP_TEST", "ours", 1), 0);
   Process same = Process::launch({"sh", "-c", "test \"$SHADESTEP_TEST\" = ours"}, {}, false);
   EXPECT_EQ(same.wait(-1)->code, 0);
-  Process other = Process::launch({"sh", "-c", "test \"$SHADESTEP_TEST\" = theirs"}, {{"SHADESTEP_TEST", "theirs"}}, false);
+  Process other = Process::launch({"sh", "-c", "test \"$SHADESTEP_TEST\" = theirs"},
+                                  {{"SHADESTEP_TEST", "theirs"}}, false);
   EXPECT_EQ(other.wait(-1)->code, 0);
 }
 

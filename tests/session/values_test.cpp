@@ -13,7 +13,9 @@ namespace {
 using frontend::Basic;
 using frontend::Type;
 
-std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+std::uint32_t bits(float value) {
+  return std::bit_cast<std::uint32_t>(value);
+}
 
 TEST(Values, FloatsReadBackAsTheSameBits) {
   std::mt19937 random(1);
