@@ -33,6 +33,8 @@ int runCommandLine(int argc, char** argv) {
   cli::addSource(app, common, action);
   cli::addDebug(app, common, action);
   cli::addLoops(app, common, action);
+  cli::addProfile(app, common, action);
+  cli::addDoctor(app, common, action);
 
   try {
     app.parse(arguments);

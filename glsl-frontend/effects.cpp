@@ -344,9 +344,8 @@ class Combiner {
     return scope;
   }
 
-  bool isShown(const Variable& variable) const {
+  static bool isShown(const Variable& variable) {
     if (componentCount(variable.type) == 0) return false;
-    if (variable.storage == Storage::buffer && facts_.unreadable.count(variable.name) > 0) return false;
     switch (variable.storage) {
       case Storage::local:
       case Storage::parameter:

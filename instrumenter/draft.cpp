@@ -54,8 +54,7 @@ void Draft::require(std::string_view extension) {
 }
 
 void Draft::declare(std::string_view text) {
-  const std::string line = std::string(text) + "\n";
-  if (declarations_.find(line) == std::string::npos) declarations_ += line;
+  declarations_.append(text).append("\n");
 }
 
 void Draft::append(std::string_view text) {

@@ -18,21 +18,6 @@ constexpr std::uint32_t kFirstRoomPerThread = 1 << 16;  // words a recorded thre
 constexpr std::uint32_t kThreadsPerPixel = 16;          // fragments expected at most on one pixel, first try
 constexpr std::uint64_t kMostRecordingWords = 1ull << 28;  // 1 GiB
 
-std::string findInterceptor(const std::string& given) {
-  if (!given.empty()) {
-    if (!fs::exists(given)) throw Error(Outcome::usage, "no interceptor library at '" + given + "'");
-    return fs::absolute(given);
-  }
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const char* place :
-       {"../lib/libshadestep-gl.so", "libshadestep-gl.so", "../lib/shadestep/libshadestep-gl.so"}) {
-    if (fs::exists(self / place)) return fs::weakly_canonical(self / place);
-  }
-  throw Error(Outcome::failed,
-              "libshadestep-gl.so is not beside this executable; build the target shadestep-gl");
-}
-
 std::string providerName(wire::Provider provider) {
   switch (provider) {
     case wire::Provider::Glx:
@@ -97,6 +82,21 @@ std::string ordinalDraws(std::uint64_t draws) {
 }
 
 }  // namespace
+
+std::string findInterceptor(const std::string& given) {
+  if (!given.empty()) {
+    if (!fs::exists(given)) throw Error(Outcome::usage, "no interceptor library at '" + given + "'");
+    return fs::absolute(given);
+  }
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const char* place :
+       {"../lib/libshadestep-gl.so", "libshadestep-gl.so", "../lib/shadestep/libshadestep-gl.so"}) {
+    if (fs::exists(self / place)) return fs::weakly_canonical(self / place);
+  }
+  throw Error(Outcome::failed,
+              "libshadestep-gl.so is not beside this executable; build the target shadestep-gl");
+}
 
 // ---- names ---------------------------------------------------------------------------------------------
 

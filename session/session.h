@@ -31,6 +31,10 @@ struct LaunchOptions {
   std::chrono::seconds timeout{0};        // for the program to reach what is asked for; 0 = no limit
 };
 
+// The path of libshadestep-gl.so: `given` if it exists, else the one beside or above this executable.
+// Throws usage or failed if there is none.
+std::string findInterceptor(const std::string& given = {});
+
 // Where the program stands: in a draw call that it has not carried out yet.
 struct DrawStop {
   std::uint64_t frame = 0;

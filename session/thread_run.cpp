@@ -114,8 +114,7 @@ class Follower {
     step.function = function(in).name;
     step.depth = static_cast<int>(stack_.size()) - 1;
     step.iteration = iterations();
-    const bool at_function = kind == Step::Kind::enter || kind == Step::Kind::leave;
-    if (layout.statement != kNone && !at_function) {
+    if (layout.statement != kNone) {
       step.line = statement(layout.statement).place.line;
       step.column = statement(layout.statement).place.column;
     } else if (const frontend::TokenIndex name = function(in).name_token; name != kNone) {

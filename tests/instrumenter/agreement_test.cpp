@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "osmesa_draw.h"
+#include "shaders.h"
 
 namespace shadestep::instrumenter::test {
 namespace {

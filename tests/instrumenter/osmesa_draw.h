@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "shaders.h"
+#include "instrumenter/instrumenter.h"
 
 namespace shadestep::instrumenter::test {
 
@@ -38,6 +38,10 @@ struct DrawResult {
   std::vector<std::uint32_t> storage;
 };
 
+enum class Profile { core, compatibility };
 DrawResult draw(Profile, const DrawRequest&);
+
+// What this OSMesa offers.
+Target target(int used_draw_buffers = 1);
 
 }  // namespace shadestep::instrumenter::test

@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-#include "osmesa_draw.h"
+#include "shaders.h"
 
 namespace shadestep::instrumenter::test {
 namespace {

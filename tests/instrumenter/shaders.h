@@ -2,26 +2,12 @@
 #pragma once
 
 #include <ostream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "instrumenter/instrumenter.h"
+#include "osmesa_draw.h"
 
 namespace shadestep::instrumenter::test {
-
-enum class Profile { core, compatibility };
-
-// What OSMesa offers.
-inline Target target(int used_draw_buffers = 1) {
-  Target offered;
-  offered.storage_buffers = true;
-  offered.bit_encoding = true;
-  offered.shader_clock = true;
-  offered.max_draw_buffers = 8;
-  offered.used_draw_buffers = used_draw_buffers;
-  return offered;
-}
 
 struct Dialect {
   std::string name;
@@ -51,18 +37,7 @@ inline const Dialect kGlsl330Compatibility{"glsl330compatibility", Profile::comp
 inline const Dialect kGlsl450{"glsl450", Profile::core,
                               "#version 450 core\nin vec2 place;\nlayout(location = 0) out vec4 color;\n",
                               "color", 450};
-inline const Dialect kEs310{"es310", Profile::core,
-                            "#version 310 es\nprecision highp float;\nprecision highp int;\n"
-                            "in vec2 place;\nout vec4 color;\n",
-                            "color", 310};
-// What mediump variables hold is the driver's business (16 bits, here), so C++ cannot tell it; plans still
-// agree.
-inline const Dialect kEs310Mediump{"es310mediump", Profile::core,
-                                   "#version 310 es\nprecision mediump float;\n"
-                                   "in highp vec2 place;\nout highp vec4 color;\n",
-                                   "color", 310};
-inline const std::vector<Dialect> kDialects = {kGlsl120, kGlsl130, kGlsl330, kGlsl330Compatibility,
-                                               kGlsl450, kEs310};
+inline const std::vector<Dialect> kDialects = {kGlsl120, kGlsl130, kGlsl330, kGlsl330Compatibility, kGlsl450};
 
 struct Body {
   std::string name;
