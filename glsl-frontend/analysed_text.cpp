@@ -21,10 +21,32 @@ const std::set<std::string>& youngKeywords() {
   return kWords;
 }
 
+// Names of extensions whose functions are in GLSL 4.60 under another name.
+const std::map<std::string, std::string>& laterNames() {
+  static const std::map<std::string, std::string> kNames = {
+      {"atomicCounterAddARB", "atomicCounterAdd"},
+      {"atomicCounterSubtractARB", "atomicCounterSubtract"},
+      {"atomicCounterMinARB", "atomicCounterMin"},
+      {"atomicCounterMaxARB", "atomicCounterMax"},
+      {"atomicCounterAndARB", "atomicCounterAnd"},
+      {"atomicCounterOrARB", "atomicCounterOr"},
+      {"atomicCounterXorARB", "atomicCounterXor"},
+      {"atomicCounterExchangeARB", "atomicCounterExchange"},
+      {"atomicCounterCompSwapARB", "atomicCounterCompSwap"},
+      {"anyInvocationARB", "anyInvocation"},
+      {"allInvocationsARB", "allInvocations"},
+      {"allInvocationsEqualARB", "allInvocationsEqual"},
+      {"gl_InstanceIDARB", "gl_InstanceID"},
+      {"gl_BaseVertexARB", "gl_BaseVertex"},
+      {"gl_BaseInstanceARB", "gl_BaseInstance"},
+      {"gl_DrawIDARB", "gl_DrawID"}};
+  return kNames;
+}
+
 std::map<std::string, std::string> renamings(const std::vector<Token>& tokens, const Skeleton& skeleton) {
   std::set<std::string> used;
   for (const Token& token : tokens) used.insert(token.text);
-  std::map<std::string, std::string> renamed;
+  std::map<std::string, std::string> renamed = laterNames();
   for (const std::string& name : skeleton.declared_names) {
     if (youngKeywords().count(name) == 0 || renamed.count(name) > 0) continue;
     std::string fresh = name + "_";

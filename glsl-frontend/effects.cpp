@@ -344,8 +344,9 @@ class Combiner {
     return scope;
   }
 
-  static bool isShown(const Variable& variable) {
+  bool isShown(const Variable& variable) const {
     if (componentCount(variable.type) == 0) return false;
+    if (variable.storage == Storage::buffer && facts_.unreadable.count(variable.name) > 0) return false;
     switch (variable.storage) {
       case Storage::local:
       case Storage::parameter:

@@ -53,7 +53,8 @@ const TBuiltInResource& generousLimits() {
 
 class TypeReader {
  public:
-  explicit TypeReader(const std::map<std::string, std::string>& renamed) : renamed_(renamed) {}
+  TypeReader(Stage stage, const std::map<std::string, std::string>& renamed)
+      : stage_(stage), renamed_(renamed) {}
 
   Type read(const glslang::TType& type) {
     Type result;
@@ -71,7 +72,7 @@ class TypeReader {
     if (const glslang::TArraySizes* sizes = type.getArraySizes()) {
       for (int i = 0; i < sizes->getNumDims(); ++i) {
         const int size = sizes->getDimSize(i);
-        result.array.push_back(size == glslang::UnsizedArraySize ? 0 : size);
+        result.array.push_back(size == glslang::UnsizedArraySize ? sizeByUse(type) : size);
       }
     }
     return result;
@@ -83,6 +84,16 @@ class TypeReader {
   }
 
  private:
+  // An array without a size is as large as the largest constant index asks for (GLSL 4.60, 4.1.9), unless its
+  // size is known at run time only. Arrays between other stages get theirs from layouts, which nobody has
+  // read here.
+  int sizeByUse(const glslang::TType& type) const {
+    const glslang::TArraySizes& sizes = *type.getArraySizes();
+    const bool at_run_time = type.getQualifier().storage == glslang::EvqBuffer || sizes.isVariablyIndexed();
+    if (stage_ != Stage::fragment || at_run_time || sizes.isDefaultImplicitlySized()) return 0;
+    return sizes.isImplicitlySized() ? sizes.getImplicitSize() : 0;
+  }
+
   static Basic basicOf(const glslang::TType& type) {
     switch (type.getBasicType()) {
       case glslang::EbtVoid:
@@ -129,6 +140,7 @@ class TypeReader {
     return known;
   }
 
+  Stage stage_;
   const std::map<std::string, std::string>& renamed_;
   std::map<const glslang::TTypeList*, std::shared_ptr<const StructType>> structs_;
 };
@@ -184,8 +196,8 @@ bool storesToMemory(glslang::TOperator op) {
 
 class TreeReader {
  public:
-  TreeReader(const AnalysedText& text, SyntaxFacts& facts)
-      : text_(text), facts_(facts), types_(text.renamed) {}
+  TreeReader(Stage stage, const AnalysedText& text, SyntaxFacts& facts)
+      : text_(text), facts_(facts), types_(stage, text.renamed) {}
 
   void readRoot(TIntermNode* root) {
     glslang::TIntermAggregate* sequence = root ? root->getAsAggregate() : nullptr;
@@ -208,11 +220,20 @@ class TreeReader {
       const glslang::TIntermSymbol* symbol = node->getAsSymbolNode();
       if (!symbol) continue;
       const Type type = types_.read(symbol->getType());
-      if (isNamelessBlock(*symbol)) {
-        for (const Member& member : type.members->members) facts_.globals[member.name] = member.type;
-      } else {
-        facts_.globals[types_.usersName(symbol->getName())] = type;
-      }
+      const bool nameless = isNamelessBlock(*symbol);
+      if (!nameless) facts_.globals[types_.usersName(symbol->getName())] = type;
+      if (symbol->getQualifier().isWriteOnly()) facts_.unreadable.insert(types_.usersName(symbol->getName()));
+      if (symbol->getBasicType() == glslang::EbtBlock) readMembers(*symbol, nameless);
+    }
+  }
+
+  // The members of a nameless block are variables of their own; of another one, a member may spoil the whole.
+  void readMembers(const glslang::TIntermSymbol& block, bool nameless) {
+    for (const glslang::TTypeLoc& member : *block.getType().getStruct()) {
+      const std::string name = types_.usersName(nameless ? member.type->getFieldName() : block.getName());
+      if (nameless) facts_.globals[name] = types_.read(*member.type);
+      const bool write_only = member.type->getQualifier().isWriteOnly() || block.getQualifier().isWriteOnly();
+      if (write_only) facts_.unreadable.insert(name);
     }
   }
 
@@ -401,7 +422,7 @@ SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text) {
     return facts;
   }
   facts.early_fragment_tests = shader.getIntermediate()->getEarlyFragmentTests();
-  TreeReader(text, facts).readRoot(shader.getIntermediate()->getTreeRoot());
+  TreeReader(stage, text, facts).readRoot(shader.getIntermediate()->getTreeRoot());
   return facts;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +41,7 @@ struct SyntaxFacts {
   std::vector<UserFunction> definitions;  // in the text's order
   std::map<VariableId, Type> mentioned;   // types of locals and parameters
   std::map<std::string, Type> globals;    // types of globals and of nameless blocks' members
+  std::set<std::string> unreadable;       // of those, the ones that are `writeonly` as a whole or in part
   bool uses_derivatives = false;
   bool writes_memory = false;  // through built-in functions; buffer variables are in `accesses`
   bool early_fragment_tests = false;

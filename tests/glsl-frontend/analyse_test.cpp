@@ -122,6 +122,25 @@ TEST(Scopes, MembersOfNamelessBlocksAreVariables) {
   EXPECT_EQ(componentCount(findVariable(shader, "named")->type), 1);
 }
 
+TEST(Scopes, LeaveOutWhatCannotBeRead) {
+  const Shader shader = analysed(
+      "#version 430\nlayout(std430) writeonly buffer A { int a; }; layout(std430) buffer B { writeonly int "
+      "b; int c; };\n"
+      "layout(std430) buffer C { writeonly int x; int y; } partly; layout(std430) buffer D { int z; int "
+      "run[]; } whole;\n"
+      "out vec4 o; void main() { a = 1; b = 2; c = 3; partly.x = 4; whole.z = 5; o = vec4(whole.run[2]); }");
+  EXPECT_THAT(names(shader, statement(shader, "o =").scope), ElementsAre("c", "whole", "o"));
+  EXPECT_THAT(names(shader, statement(shader, "partly").changes), ElementsAre("partly"));
+  EXPECT_EQ(componentCount(findVariable(shader, "whole")->type), 1);
+}
+
+TEST(Types, OfArraysWithoutSizeComeFromTheirUse) {
+  const Shader shader =
+      analysed("uniform float w[];\nvoid main() { gl_FragColor = gl_TexCoord[0] + gl_TexCoord[2] * w[3]; }");
+  EXPECT_EQ(glslName(findVariable(shader, "gl_TexCoord")->type), "vec4[3]");
+  EXPECT_EQ(glslName(findVariable(shader, "w")->type), "float[4]");
+}
+
 TEST(Types, OfVariablesComeFromTheCompiler) {
   const Shader shader = analysed(
       "#version 330\nconst int N = 2 + 1; struct S { vec2 p; mat2 m; }; out vec4 c;\n"
