@@ -1,5 +1,8 @@
-// What the debugger's passes cost against the bare draw, measured in the same stopped program: CSV on stdout,
-// "pass,ms,ratio". Usage: captures PROGRAM [ARGS...]; the program's first draw is measured.
+// What the debugger's passes cost against the bare draw, measured in turn in the same stopped program: CSV on
+// stdout, "pass,ms,ratio". Usage: captures PROGRAM [ARGS...]; the program's first draw is measured.
+//
+// "draw" is the draw and glFinish alone; "whole" is all that a user waits for: instrumenting, compiling,
+// drawing, reading back, and comparing the outputs.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -14,7 +17,7 @@ namespace {
 using namespace shadestep;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-constexpr int kRepeats = 7;  // of which the median counts
+constexpr int kRounds = 7;  // of which the median counts
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -23,24 +26,23 @@ double median(std::vector<double> values) {
 }
 
 double wallMilliseconds(const std::function<void()>& work) {
-  std::vector<double> times;
-  for (int i = 0; i < kRepeats; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    times.push_back(Milliseconds(std::chrono::steady_clock::now() - begin).count());
-  }
-  return median(times);
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return Milliseconds(std::chrono::steady_clock::now() - begin).count();
 }
 
 double drawMilliseconds(session::Session& session, const session::Prepared& program) {
   session::ExecuteOptions options;
   options.compare = false;
   options.read_captures = false;
-  options.repeats = kRepeats;
-  std::vector<double> times;
-  for (const auto time : session.execute(program, options).times) times.push_back(Milliseconds(time).count());
-  return median(times);
+  return Milliseconds(session.execute(program, options).times.front()).count();
 }
+
+struct Measure {
+  const char* pass;
+  std::function<double()> milliseconds;
+  std::vector<double> times = {};
+};
 
 int measure(const std::vector<std::string>& command) {
   session::LaunchOptions launch;
@@ -49,28 +51,36 @@ int measure(const std::vector<std::string>& command) {
   session::Session session(launch);
   session.runTo(0, 0);
 
-  const double bare = drawMilliseconds(session, session.prepareOriginal());
-  std::puts("pass,ms,ratio");
-  const auto report = [bare](const char* pass, double ms) {
-    std::printf("%s,%.2f,%.2f\n", pass, ms, ms / bare);
-  };
-  report("bare draw", bare);
-
+  const session::Prepared original = session.prepareOriginal();
   const int x = session.facts().width / 2, y = session.facts().height / 2;
-  report("one pixel's whole run (instrument, compile, draw, read, check)",
-         wallMilliseconds([&] { session.record(x, y, 1, 1); }));
+  std::vector<Measure> measures = {
+      {"bare draw", [&] { return drawMilliseconds(session, original); }},
+      {"one pixel's run: whole", [&] { return wallMilliseconds([&] { session.record(x, y, 1, 1); }); }}};
 
   const auto clock =
       instrumenter::instrumentClock(session.shader(session::Stage::fragment), session.target());
-  if (const auto* shader = std::get_if<instrumenter::AttachmentShader>(&clock)) {
-    report("clock heat map: one pass's draw", drawMilliseconds(session, session.prepare(*shader)));
-    report("clock heat map: one pass (instrument, compile, draw, read, check)",
-           wallMilliseconds([&] { session.capture(*shader); }));
+  const auto* shader = std::get_if<instrumenter::AttachmentShader>(&clock);
+  session::Prepared clocked;
+  if (shader) {
+    clocked = session.prepare(*shader);
+    measures.push_back({"clock heat map: draw", [&] { return drawMilliseconds(session, clocked); }});
+    measures.push_back(
+        {"clock heat map: whole", [&] { return wallMilliseconds([&] { session.capture(*shader); }); }});
   } else {
     std::fprintf(stderr, "captures: no clock here: %s\n",
                  std::get<instrumenter::Failure>(clock).reason.c_str());
   }
-  session.quit();
+
+  // The first round warms up: the driver compiles, the check makes its reference.
+  for (int round = 0; round <= kRounds; ++round)
+    for (Measure& one : measures) {
+      const double milliseconds = one.milliseconds();
+      if (round > 0) one.times.push_back(milliseconds);
+    }
+  std::puts("pass,ms,ratio");
+  const double bare = median(measures.front().times);
+  for (const Measure& one : measures)
+    std::printf("%s,%.2f,%.2f\n", one.pass, median(one.times), median(one.times) / bare);
   return 0;
 }
 
