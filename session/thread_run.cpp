@@ -114,7 +114,8 @@ class Follower {
     step.function = function(in).name;
     step.depth = static_cast<int>(stack_.size()) - 1;
     step.iteration = iterations();
-    if (layout.statement != kNone) {
+    const bool at_function = kind == Step::Kind::enter || kind == Step::Kind::leave;
+    if (layout.statement != kNone && !at_function) {
       step.line = statement(layout.statement).place.line;
       step.column = statement(layout.statement).place.column;
     } else if (const frontend::TokenIndex name = function(in).name_token; name != kNone) {

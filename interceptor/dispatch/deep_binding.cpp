@@ -13,11 +13,6 @@
 #include "interceptor/dispatch/libc_hooks.h"
 #include "interceptor/dispatch/resolve.h"
 
-extern "C" {
-void* dlsym(void*, const char*) noexcept;
-void* dlopen(const char*, int) noexcept;
-}
-
 namespace shadestep::dispatch {
 
 namespace {
