@@ -40,7 +40,7 @@ bool Attachments::add(const std::string& name, const Type& type) {
 void Attachments::declare() {
   const bool floats = layout_.carrier == Carrier::float_attachments;
   const std::string type = draft_.highp() + (floats ? "vec4 " : "uvec4 ");
-  if (!floats) requireBitEncoding(draft_);
+  if (!floats) prepareWords(draft_);
   if (floats && draft_.shader().version < 130) draft_.declare(draft_.adapt(helpers::k_attachment_halves));
 
   for (int i = 0; i < layout_.attachments(); ++i) {
@@ -62,7 +62,7 @@ std::string Attachments::assign(std::uint32_t mark, const std::vector<std::strin
     const Type& type = layout_.fields[i].type;
     const std::vector<std::string> more = layout_.carrier == Carrier::float_attachments
                                               ? floatChannels(draft_, values[i], type)
-                                              : uintWords(values[i], type);
+                                              : uintWords(draft_, values[i], type);
     words.insert(words.end(), more.begin(), more.end());
   }
   return assignWords(words);

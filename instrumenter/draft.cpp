@@ -54,7 +54,8 @@ void Draft::require(std::string_view extension) {
 }
 
 void Draft::declare(std::string_view text) {
-  declarations_.append(text).append("\n");
+  const std::string line = std::string(text) + "\n";
+  if (declarations_.find(line) == std::string::npos) declarations_ += line;
 }
 
 void Draft::append(std::string_view text) {

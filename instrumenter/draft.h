@@ -30,7 +30,7 @@ class Draft {
   Edits edits;
 
   void require(std::string_view extension);
-  // Global declarations that come before all of the user's.
+  // Global declarations that come before all of the user's. A text that is already there is not added again.
   void declare(std::string_view text);
   // Function definitions that come after all of the user's text. In ES they are compiled with highp defaults.
   void append(std::string_view text);

@@ -162,7 +162,7 @@ std::string Recorder::record(Event event, FunctionId function, StatementId state
     const int count = frontend::wordCount(item.type);
     if (count == 0 || count > kWidestRecorded) continue;
     layout.fields.push_back(Field{item.name, item.type, layout.words});
-    for (const std::string& word : intWords(item.expression, item.type)) {
+    for (const std::string& word : intWords(draft_, item.expression, item.type)) {
       writes +=
           words + "[" + at + (layout.words > 0 ? " + " + std::to_string(layout.words) : "") + "] = " + word;
       writes += ", ";
@@ -247,7 +247,7 @@ Result<RecordingShader> instrumentRecording(const Shader& shader, const Target& 
   if (!draft.es() && shader.version < 430) draft.require("GL_ARB_shader_storage_buffer_object");
   if (!draft.es() && shader.version < 140)
     draft.require("GL_ARB_uniform_buffer_object");  // makes `layout` a keyword
-  requireBitEncoding(draft);
+  prepareWords(draft);
   draft.declare(draft.adapt(helpers::k_recording_declarations));
   Type invocation;
   invocation.basic = frontend::Basic::uint_;

@@ -1,5 +1,7 @@
 #include "instrumenter/words.h"
 
+#include "instrumenter/helpers/helpers.h"
+
 namespace shadestep::instrumenter {
 
 using frontend::Basic;
@@ -8,9 +10,11 @@ using frontend::Type;
 
 namespace {
 
-// `integer` is the type of the words: "uint" or "int". GLSL's conversions between the two keep the bits.
-std::vector<std::string> integerWords(const std::string& expression, const Type& type,
+// `integer` is the type of the words: "uint" or "int". GLSL's conversions between the two keep the bits, in
+// ES at full precision only.
+std::vector<std::string> integerWords(const Draft& draft, const std::string& expression, const Type& type,
                                       const std::string& integer) {
+  const Basic other = integer == "uint" ? Basic::int_ : Basic::uint_;
   const std::string from_float = integer == "uint" ? "floatBitsToUint(" : "floatBitsToInt(";
   std::vector<std::string> words;
   for (const Component& component : frontend::components(type)) {
@@ -33,7 +37,8 @@ std::vector<std::string> integerWords(const std::string& expression, const Type&
         both("unpackUint2x32");
         break;
       default:
-        words.push_back(integer + "(" + value + ")");
+        words.push_back((draft.es() && component.basic == other ? draft.name(integer) : integer) + "(" +
+                        value + ")");
     }
   }
   return words;
@@ -41,12 +46,12 @@ std::vector<std::string> integerWords(const std::string& expression, const Type&
 
 }  // namespace
 
-std::vector<std::string> uintWords(const std::string& expression, const Type& type) {
-  return integerWords(expression, type, "uint");
+std::vector<std::string> uintWords(const Draft& draft, const std::string& expression, const Type& type) {
+  return integerWords(draft, expression, type, "uint");
 }
 
-std::vector<std::string> intWords(const std::string& expression, const Type& type) {
-  return integerWords(expression, type, "int");
+std::vector<std::string> intWords(const Draft& draft, const std::string& expression, const Type& type) {
+  return integerWords(draft, expression, type, "int");
 }
 
 std::vector<std::string> floatChannels(const Draft& draft, const std::string& expression, const Type& type) {
@@ -60,7 +65,8 @@ std::vector<std::string> floatChannels(const Draft& draft, const std::string& ex
     }
     Type scalar;
     scalar.basic = component.basic;
-    for (const std::string& word : has_uint ? uintWords(value, scalar) : intWords(value, scalar)) {
+    for (const std::string& word :
+         has_uint ? uintWords(draft, value, scalar) : intWords(draft, value, scalar)) {
       channels.push_back(has_uint ? "float(" + word + " & 65535u)" : draft.name("low(") + word + ")");
       channels.push_back(has_uint ? "float(" + word + " >> 16)" : draft.name("high(") + word + ")");
     }
@@ -78,7 +84,8 @@ int channelCount(const Type& type) {
   return channels;
 }
 
-void requireBitEncoding(Draft& draft) {
+void prepareWords(Draft& draft) {
+  if (draft.es()) draft.declare(draft.adapt(helpers::k_es_words));
   if (!draft.es() && draft.shader().version < 330) draft.require("GL_ARB_shader_bit_encoding");
 }
 

@@ -9,9 +9,11 @@
 namespace shadestep::instrumenter {
 
 // `expression`, of this type, as GLSL expressions of type uint, a word each.
-std::vector<std::string> uintWords(const std::string& expression, const frontend::Type& type);
+std::vector<std::string> uintWords(const Draft& draft, const std::string& expression,
+                                   const frontend::Type& type);
 // The same of type int; needs no uint, so it works in every dialect that has floatBitsToInt.
-std::vector<std::string> intWords(const std::string& expression, const frontend::Type& type);
+std::vector<std::string> intWords(const Draft& draft, const std::string& expression,
+                                  const frontend::Type& type);
 // The same as expressions of type float, a channel each: floats as they are, other words as two halves of 16
 // bits, low half first. Below GLSL 1.30 they call the functions of helpers/attachment_halves.glsl.
 std::vector<std::string> floatChannels(const Draft& draft, const std::string& expression,
@@ -19,7 +21,7 @@ std::vector<std::string> floatChannels(const Draft& draft, const std::string& ex
 // Number of floatChannels of a type.
 int channelCount(const frontend::Type& type);
 
-// Makes floatBitsToInt and floatBitsToUint known where the dialect lacks them.
-void requireBitEncoding(Draft& draft);
+// Declares what uintWords and intWords call and the dialect lacks.
+void prepareWords(Draft& draft);
 
 }  // namespace shadestep::instrumenter

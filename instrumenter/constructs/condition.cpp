@@ -86,11 +86,11 @@ void Conditions::putAfter(Edits& edits, StatementId id, const std::string& text)
   const TokenRange range = conditionTokens(draft_.shader(), id);
   fillMissing(edits, range);
   if (statementAt(draft_.shader(), id).kind == StatementKind::switch_) {
-    declareSelector();
+    draft_.declare(draft_.adapt(helpers::k_switch_selector));
     edits.wrap(range, draft_.name("select(") + draft_.name("keep("), "), (" + text + ", true))");
   } else {
-    declareOutcome();
     const std::string outcome = draft_.name("outcome");
+    draft_.declare("bool " + outcome + ";");
     edits.wrap(range, "(" + outcome + " = (", "), " + text + ", " + outcome + ")");
   }
 }
@@ -104,16 +104,6 @@ std::string Conditions::outcome(StatementId id) {
 
 void Conditions::fillMissing(Edits& edits, TokenRange range) {
   if (range.empty()) edits.fill(range.first, "true");
-}
-
-void Conditions::declareOutcome() {
-  if (!outcome_declared_) draft_.declare("bool " + draft_.name("outcome") + ";");
-  outcome_declared_ = true;
-}
-
-void Conditions::declareSelector() {
-  if (!selector_declared_) draft_.declare(draft_.adapt(helpers::k_switch_selector));
-  selector_declared_ = true;
 }
 
 }  // namespace shadestep::instrumenter

@@ -34,11 +34,8 @@ class Conditions {
 
  private:
   void fillMissing(Edits&, frontend::TokenRange);
-  void declareOutcome();
-  void declareSelector();
 
   Draft& draft_;
-  bool outcome_declared_ = false, selector_declared_ = false;
 };
 
 }  // namespace shadestep::instrumenter

@@ -143,9 +143,11 @@ void replaceInputs(Draft& draft, const std::vector<IsolatedInput>& inputs) {
   const Shader& shader = draft.shader();
   for (const Variable& variable : shader.variables)
     if (isUserInput(variable)) makeUniform(draft, variable);
-  for (const IsolatedInput& input : inputs)
-    if (input.input != input.uniform)
-      draft.declare("uniform " + draft.highp() + frontend::glslName(input.type) + " " + input.uniform + ";");
+  for (const IsolatedInput& input : inputs) {
+    if (input.input == input.uniform) continue;
+    const std::string precision = input.type.basic == Basic::bool_ ? "" : draft.highp();
+    draft.declare("uniform " + precision + frontend::glslName(input.type) + " " + input.uniform + ";");
+  }
 
   for (TokenIndex i = 0; i < tokenCount(shader); ++i) {
     const Token& token = at(shader, i);

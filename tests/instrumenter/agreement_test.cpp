@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "shaders.h"
+#include "osmesa_draw.h"
 
 namespace shadestep::instrumenter::test {
 namespace {
@@ -68,9 +68,8 @@ struct Step {
   const Record* record;
 };
 
-// Follows a recording through functions and loops. Where a statement calls several functions, calls are taken
-// in the order of the text; where that is not the order in which they run (nested or skipped calls), the
-// callee tells.
+// Follows a recording through functions and loops. A function that a statement calls twice, or a `for` in its
+// head, is followed with its call unknown: its steps are left out.
 class Follower {
  public:
   Follower(const Shader& shader, const RecordingLayout& layout) : shader_(shader), layout_(layout) {}
@@ -80,82 +79,85 @@ class Follower {
     for (const Record& record : thread.records) {
       const RecordLayout& layout = layout_.records[static_cast<std::size_t>(record.layout)];
       advance(layout);
-      const bool single_values = layout.event == Event::statement || layout.event == Event::condition;
-      if (!single_values || frames_.empty() || frames_.back().unknown) continue;
-      Step step{layout.statement, {}, {}, &record};
-      for (const Frame& frame : frames_) {
-        if (frame.call != frontend::kNone) step.call_path.push_back(frame.call);
-        for (const auto& [loop, iteration] : frame.loops) step.iterations.push_back(iteration);
+      if (layout.event == Event::statement || layout.event == Event::condition) {
+        Step step{layout.statement, {}, {}, &record};
+        if (describe(step)) steps.push_back(step);
       }
-      steps.push_back(step);
+      if (layout.event == Event::return_ || layout.event == Event::function_leave) frames_.pop_back();
     }
     return steps;
   }
 
  private:
-  struct Frame {
-    CallId call = frontend::kNone;
-    bool unknown = false;
-    std::vector<std::pair<StatementId, int>> loops;
-    StatementId calling = frontend::kNone;
-    std::size_t next_call = 0;
+  struct Loop {
+    StatementId statement;
+    int iteration;
   };
+  struct Frame {
+    CallId call = frontend::kNone;  // that led here
+    bool known = true;
+    std::vector<Loop> loops;                // entered and not left
+    StatementId calling = frontend::kNone;  // the statement that is being run, if it calls functions
+  };
+
+  const Statement& at(StatementId id) const { return shader_.statements[static_cast<std::size_t>(id)]; }
+  bool isLoop(StatementId id) const {
+    const StatementKind kind = at(id).kind;
+    return kind == StatementKind::for_ || kind == StatementKind::while_ || kind == StatementKind::do_while;
+  }
+  bool encloses(StatementId loop, StatementId id) const {
+    while (id != frontend::kNone && id != loop) id = at(id).parent;
+    return id == loop;
+  }
 
   void advance(const RecordLayout& layout) {
     if (layout.event == Event::function_enter) return enter(layout.function);
-    while (frames_.size() > 1 && layout.function != function_[frames_.size() - 1]) leave();
     Frame& frame = frames_.back();
-    const Statement& statement = shader_.statements[static_cast<std::size_t>(layout.statement)];
-    const bool is_loop = statement.kind == StatementKind::for_ || statement.kind == StatementKind::while_ ||
-                         statement.kind == StatementKind::do_while;
-    // Loops that do not enclose this statement have been left.
-    while (!frame.loops.empty() && !encloses(frame.loops.back().first, layout.statement))
+    while (!frame.loops.empty() && !encloses(frame.loops.back().statement, layout.statement))
       frame.loops.pop_back();
-    if (layout.event == Event::before) {
-      frame.calling = layout.statement;
-      frame.next_call = 0;
-    }
-    if (is_loop && layout.event == Event::before) frame.loops.push_back({layout.statement, -1});
-    const bool counts = statement.kind == StatementKind::do_while ? layout.event == Event::iteration
-                                                                  : layout.event == Event::condition;
-    if (is_loop && counts) ++frame.loops.back().second;
-  }
-
-  bool encloses(StatementId loop, StatementId statement) const {
-    for (StatementId at = statement; at != frontend::kNone;
-         at = shader_.statements[static_cast<std::size_t>(at)].parent)
-      if (at == loop) return true;
-    return false;
+    const bool begins = layout.event == Event::before;
+    frame.calling = begins ? layout.statement : frontend::kNone;
+    if (!isLoop(layout.statement)) return;
+    if (begins) frame.loops.push_back({layout.statement, -1});
+    const Event counted =
+        at(layout.statement).kind == StatementKind::do_while ? Event::iteration : Event::condition;
+    if (layout.event == counted) ++frame.loops.back().iteration;
   }
 
   void enter(frontend::FunctionId function) {
     Frame frame;
     if (!frames_.empty()) {
       Frame& caller = frames_.back();
-      frame.unknown = true;
-      if (caller.calling != frontend::kNone) {
-        const Statement& statement = shader_.statements[static_cast<std::size_t>(caller.calling)];
-        int candidates = 0;
-        for (const CallId call : statement.calls)
-          candidates += shader_.calls[static_cast<std::size_t>(call)].callee == function;
-        if (candidates == 1 && statement.kind != StatementKind::for_)
-          for (const CallId call : statement.calls)
-            if (shader_.calls[static_cast<std::size_t>(call)].callee == function) {
-              frame.call = call;
-              frame.unknown = caller.unknown;
-            }
-      }
+      // Between the statements of a loop, it is the loop's condition that calls.
+      if (caller.calling == frontend::kNone && !caller.loops.empty())
+        caller.calling = caller.loops.back().statement;
+      std::vector<CallId> candidates;
+      if (caller.calling != frontend::kNone && at(caller.calling).kind != StatementKind::for_)
+        for (const CallId call : at(caller.calling).calls)
+          if (shader_.calls[static_cast<std::size_t>(call)].callee == function) candidates.push_back(call);
+      frame.known = caller.known && candidates.size() == 1;
+      if (frame.known) frame.call = candidates.front();
     }
-    function_.resize(frames_.size());
-    function_.push_back(function);
     frames_.push_back(frame);
   }
-  void leave() { frames_.pop_back(); }
+
+  bool describe(Step& step) const {
+    for (const Frame& frame : frames_) {
+      if (!frame.known) return false;
+      if (frame.call != frontend::kNone) step.call_path.push_back(frame.call);
+      for (const Loop& loop : frame.loops) {
+        // What a condition calls runs before the record that counts it.
+        const bool ahead = &frame != &frames_.back() && frame.calling == loop.statement &&
+                           at(loop.statement).kind == StatementKind::while_;
+        step.iterations.push_back(loop.iteration + (ahead ? 1 : 0));
+      }
+    }
+    return true;
+  }
 
   const Shader& shader_;
   const RecordingLayout& layout_;
   std::vector<Frame> frames_;
-  std::vector<frontend::FunctionId> function_;
 };
 
 class Agreement : public testing::TestWithParam<std::tuple<Dialect, Body>> {};

@@ -103,7 +103,7 @@ std::string compile(GLuint program, GLenum stage, const std::string& text) {
 // A vertex shader of the same version that gives `place`.
 std::string defaultVertexText(const std::string& fragment) {
   const std::string version = fragment.substr(0, fragment.find('\n') + 1);
-  const bool old = version.find("#version 1") == 0 && version.find("#version 13") &&
+  const bool old = version.starts_with("#version 1") && version.find("#version 13") &&
                    version.find("#version 14") && version.find("#version 15");
   const std::string in = old ? "attribute " : "in ", out = old ? "varying " : "out ";
   return version + in + "vec2 corner;\n" + out + "vec2 place;\n" +
@@ -261,16 +261,6 @@ DrawResult draw(Profile profile, const DrawRequest& request) {
   UseProgram(0);
   DeleteProgram(program);
   return result;
-}
-
-Target target(int used_draw_buffers) {
-  Target offered;
-  offered.storage_buffers = true;
-  offered.bit_encoding = true;
-  offered.shader_clock = true;
-  offered.max_draw_buffers = 8;
-  offered.used_draw_buffers = used_draw_buffers;
-  return offered;
 }
 
 }  // namespace shadestep::instrumenter::test

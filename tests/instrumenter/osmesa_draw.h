@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "instrumenter/instrumenter.h"
+#include "shaders.h"
 
 namespace shadestep::instrumenter::test {
 
@@ -38,10 +38,6 @@ struct DrawResult {
   std::vector<std::uint32_t> storage;
 };
 
-enum class Profile { core, compatibility };
 DrawResult draw(Profile, const DrawRequest&);
-
-// What this OSMesa offers.
-Target target(int used_draw_buffers = 1);
 
 }  // namespace shadestep::instrumenter::test

@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-#include "shaders.h"
+#include "osmesa_draw.h"
 
 namespace shadestep::instrumenter::test {
 namespace {

@@ -2,12 +2,26 @@
 #pragma once
 
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "osmesa_draw.h"
+#include "instrumenter/instrumenter.h"
 
 namespace shadestep::instrumenter::test {
+
+enum class Profile { core, compatibility };
+
+// What OSMesa offers.
+inline Target target(int used_draw_buffers = 1) {
+  Target offered;
+  offered.storage_buffers = true;
+  offered.bit_encoding = true;
+  offered.shader_clock = true;
+  offered.max_draw_buffers = 8;
+  offered.used_draw_buffers = used_draw_buffers;
+  return offered;
+}
 
 struct Dialect {
   std::string name;
@@ -37,7 +51,18 @@ inline const Dialect kGlsl330Compatibility{"glsl330compatibility", Profile::comp
 inline const Dialect kGlsl450{"glsl450", Profile::core,
                               "#version 450 core\nin vec2 place;\nlayout(location = 0) out vec4 color;\n",
                               "color", 450};
-inline const std::vector<Dialect> kDialects = {kGlsl120, kGlsl130, kGlsl330, kGlsl330Compatibility, kGlsl450};
+inline const Dialect kEs310{"es310", Profile::core,
+                            "#version 310 es\nprecision highp float;\nprecision highp int;\n"
+                            "in vec2 place;\nout vec4 color;\n",
+                            "color", 310};
+// What mediump variables hold is the driver's business (16 bits, here), so C++ cannot tell it; plans still
+// agree.
+inline const Dialect kEs310Mediump{"es310mediump", Profile::core,
+                                   "#version 310 es\nprecision mediump float;\n"
+                                   "in highp vec2 place;\nout highp vec4 color;\n",
+                                   "color", 310};
+inline const std::vector<Dialect> kDialects = {kGlsl120, kGlsl130, kGlsl330, kGlsl330Compatibility,
+                                               kGlsl450, kEs310};
 
 struct Body {
   std::string name;
@@ -201,8 +226,66 @@ void main() {
 )",
                           130};
 
-inline const std::vector<Body> kBodies = {kLoops,   kNested, kFunctions, kConditions,
-                                          kDiscard, kValues, kSwitch};
+inline const Body kOddForms{"odd_forms", R"(
+#define STEP(v) v += 1; v *= 2
+#define LIMIT (y < 9 ? y : 9)
+#define EACH(i) for (int i = 0; i < LIMIT; i++)
+const int three = 3;
+int side = three;
+bool next() { side--; return side > 0; }
+int more(int x) { int x_more = x; { int x = x_more + 1; x_more = x; } return x_more; }
+void nothing() { ; }
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y), z;
+  struct Pair { int a; vec2 b; };
+  Pair pair = Pair(x, vec2(0.5)), other = pair;
+  const int local = 2;
+  z = 0;
+  while (next()) ;
+  for (int i = 0, j = 4; i < j; i++, j--) for (int k = 0; k < 2; ++k) if (k == i) z++; else z += 2;
+  for (; z > 3 && y > 0;) { z -= 3; if (z < 0) return; }
+  EACH(n) pair.a += n;
+  STEP(z);
+  if (x > 3) { } else ;
+  x = more(more(x)), other.b.yx = pair.b + vec2(float(z), 1.0);
+  nothing(); nothing();
+  { int x = y; z += x; { z++; } }
+  do { int y = z; if (y > 40) continue; z += 7; } while (z < 30);
+  while (bool again = z > 25) { z -= 2; if (!again) break; }
+  COLOR.x = float(z); COLOR.yz = other.b; COLOR[3] = float(pair.a);
+}
+)"};
+
+inline const Body kRays{"rays", R"(
+float volume(vec3 p) { vec3 d = p - vec3(0.5); return exp(-8.0 * dot(d, d)); }
+vec4 classify(float front, float back, float thickness) {
+  vec4 material = vec4(front, back, 0.25, 12.0 * 0.5 * (front + back));
+  float alpha = 1.0 - exp(-material.a * thickness / 16.0);
+  return vec4(alpha * material.rgb, alpha);
+}
+void main() {
+  vec3 entry = vec3(place, 0.0), dir = normalize(vec3(place - 0.5, 2.0)) / 16.0;
+  vec3 far_side = step(0.0, dir), lengths = (far_side - entry) / dir;
+  float steps = min(min(lengths.x, lengths.y), lengths.z);
+  vec4 dst = vec4(0.0), src = vec4(0.0);
+  float old = volume(entry);
+  for (int i = 0; i < int(ceil(steps)); ++i) {
+    float thickness = min(1.0, steps - float(i));
+    vec3 pos = entry + (float(i) + thickness) * dir;
+    float scalar = volume(pos);
+    dst += (1.0 - dst.a) * src;
+    src = classify(old, scalar, thickness);
+    old = scalar;
+    if (dst.a >= 0.9)
+      break;
+  }
+  dst += (1.0 - dst.a) * src;
+  COLOR = dst;
+}
+)"};
+
+inline const std::vector<Body> kBodies = {kLoops,  kNested, kFunctions, kConditions, kDiscard,
+                                          kValues, kSwitch, kOddForms,  kRays};
 
 // Analyses a text that is known to be good.
 inline frontend::Shader analysed(const std::string& text) {
