@@ -94,7 +94,8 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
       std::to_string(profile.passes) + " passes. Threads that run in step (a SIMD group) " +
       "read the same clock: each pays for the slowest of its group.");
   if (session.facts().renderer.find("llvmpipe") != std::string::npos)
-    profile.notes.push_back("Grain: llvmpipe runs groups of 4 x 2 pixels in step (with 8-wide vectors).");
+    profile.notes.push_back(
+        "Grain: llvmpipe runs groups of 4 x 2 pixels in step where its vectors are 8 wide.");
   if (repeats.wrapped)
     profile.notes.push_back("The clock wrapped around during some threads; this was undone.");
   summarize(profile);

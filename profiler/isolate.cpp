@@ -15,7 +15,8 @@
 namespace shadestep::profiler {
 namespace {
 
-constexpr int kRepeats = 4;
+constexpr int kVisits = 2;
+constexpr int kRepeats = 3;            // of the draw, per visit
 constexpr int kBetweenReferences = 8;  // pixels
 constexpr double kClear = 20;          // the work takes so many times the timer's uncertainty
 constexpr double kEnough = 2e6;        // ns; a draw this long is measured well on any clock
@@ -28,7 +29,7 @@ double fastest(const std::vector<double>& times) {
 struct Setup {
   int size = 64;              // fragments per side
   double baseline = 0;        // ns of a draw without the work
-  double per_pixel = 0;       // seconds that measuring one pixel takes, references included
+  double per_visit = 0;       // seconds that visiting one pixel takes, references included
   std::size_t reference = 0;  // pixel of middling cost
 };
 
@@ -45,7 +46,7 @@ Setup calibrate(Isolation& isolation) {
     std::vector<std::pair<double, std::size_t>> costs;
     for (const Sample& probe : probes)
       costs.emplace_back(fastest(isolation.time(probe.pixel, size, kRepeats)), probe.pixel);
-    setup.per_pixel = stopwatch.seconds() / static_cast<double>(probes.size());
+    setup.per_visit = stopwatch.seconds() / static_cast<double>(probes.size());
     std::nth_element(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 2),
                      costs.end());
     const auto [cost, pixel] = costs[costs.size() / 2];
@@ -53,37 +54,37 @@ Setup calibrate(Isolation& isolation) {
     const double uncertainty = std::max(1000.0, quantile(empty, 0.75) - quantile(empty, 0.25));
     if (cost >= kEnough || cost - setup.baseline >= kClear * uncertainty) break;
   }
-  setup.per_pixel *= 1 + 2.0 / kBetweenReferences;
+  setup.per_visit *= 1 + 2.0 / kBetweenReferences;
   return setup;
 }
 
-struct Measured {
-  std::size_t pixel = 0;
-  bool held_out = false;
-  double time = 0;        // ns, fastest of the repeats
-  std::size_t block = 0;  // between which references
+// One visit of a pixel.
+struct Visit {
+  std::size_t sample = 0;     // index into the plan
+  std::vector<double> times;  // ns
+  std::size_t block = 0;      // between which references
 };
 
 struct Measurements {
-  std::vector<Measured> pixels;
+  std::vector<Visit> visits;
   std::vector<double> references, baselines;  // one per block
-  std::vector<double> spreads;
 };
 
 Measurements measure(Isolation& isolation, const Setup& setup, const std::vector<Sample>& plan,
                      double seconds, const std::function<void(double)>& progress) {
   const Stopwatch stopwatch;
+  const std::size_t visits = kVisits * plan.size();
   Measurements result;
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  for (std::size_t i = 0; i < visits; ++i) {
     if (i % kBetweenReferences == 0) {
-      if (stopwatch.seconds() > seconds) break;
+      if (i > 0 && stopwatch.seconds() > seconds) break;
       result.references.push_back(fastest(isolation.time(setup.reference, setup.size, kRepeats)));
       result.baselines.push_back(fastest(isolation.timeBaseline(setup.reference, setup.size, kRepeats)));
-      if (progress) progress(static_cast<double>(i) / static_cast<double>(plan.size()));
+      if (progress) progress(static_cast<double>(i) / static_cast<double>(visits));
     }
-    const std::vector<double> times = isolation.time(plan[i].pixel, setup.size, kRepeats);
-    result.pixels.push_back({plan[i].pixel, plan[i].held_out, fastest(times), result.references.size() - 1});
-    result.spreads.push_back(relativeSpread(times));
+    const std::size_t sample = i % plan.size();
+    result.visits.push_back(
+        {sample, isolation.time(plan[sample].pixel, setup.size, kRepeats), result.references.size() - 1});
   }
   return result;
 }
@@ -98,31 +99,43 @@ double drift(const std::vector<double>& references, std::size_t block) {
 }
 
 // Writes the cost of one fragment at every measured pixel; all others of `map` become `reconstructed`.
-void assign(const Measurements& measurements, const Setup& setup, CostMap& map) {
+// Returns the median of the pixels' spreads.
+double assign(const Measurements& measurements, const std::vector<Sample>& plan, const Setup& setup,
+              CostMap& map) {
+  std::vector<std::vector<double>> times(plan.size());
+  for (const Visit& visit : measurements.visits) {
+    const double slower = drift(measurements.references, visit.block);
+    for (const double time : visit.times) times[visit.sample].push_back(time / slower);
+  }
   for (PixelState& state : map.state)
     if (state == PixelState::measured) state = PixelState::reconstructed;
   const double baseline = median(measurements.baselines);
   const double fragments = static_cast<double>(setup.size) * setup.size;
-  for (const Measured& m : measurements.pixels) {
-    const double time = m.time / drift(measurements.references, m.block);
-    map.state[m.pixel] = PixelState::measured;
-    map.cost[m.pixel] = std::max(0.0, time - baseline) / fragments;
+  std::vector<double> spreads;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (times[i].empty()) continue;
+    map.state[plan[i].pixel] = PixelState::measured;
+    map.cost[plan[i].pixel] = std::max(0.0, fastest(times[i]) - baseline) / fragments;
+    spreads.push_back(relativeSpread(times[i]));
   }
+  return median(std::move(spreads));
 }
 
 // Fills the pixels in between, once without those held out to see how well that works, then from all.
-std::optional<Reconstruction> reconstruct(const Measurements& measurements, CostMap& map) {
+std::optional<Reconstruction> reconstruct(const std::vector<Sample>& plan, CostMap& map) {
   if (std::find(map.state.begin(), map.state.end(), PixelState::reconstructed) == map.state.end())
     return std::nullopt;
   std::vector<std::uint8_t> known(map.state.size());
-  for (const Measured& m : measurements.pixels) known[m.pixel] = m.held_out ? 0 : 1;
-  const std::vector<double> judged = pullPush(map.width, map.height, map.cost, known);
+  for (std::size_t i = 0; i < known.size(); ++i) known[i] = map.state[i] == PixelState::measured ? 1 : 0;
+  std::vector<std::uint8_t> without = known;
+  for (const Sample& sample : plan)
+    if (sample.held_out) without[sample.pixel] = 0;
+  const std::vector<double> judged = pullPush(map.width, map.height, map.cost, without);
   std::vector<double> errors;
-  for (const Measured& m : measurements.pixels)
-    if (m.held_out && map.cost[m.pixel] > 0)
-      errors.push_back(std::abs(judged[m.pixel] - map.cost[m.pixel]) / map.cost[m.pixel]);
+  for (const Sample& sample : plan)
+    if (sample.held_out && known[sample.pixel] != 0 && map.cost[sample.pixel] > 0)
+      errors.push_back(std::abs(judged[sample.pixel] - map.cost[sample.pixel]) / map.cost[sample.pixel]);
 
-  for (const Measured& m : measurements.pixels) known[m.pixel] = 1;
   const std::vector<double> filled = pullPush(map.width, map.height, map.cost, known);
   for (std::size_t i = 0; i < map.state.size(); ++i)
     if (map.state[i] == PixelState::reconstructed) map.cost[i] = filled[i];
@@ -132,9 +145,10 @@ std::optional<Reconstruction> reconstruct(const Measurements& measurements, Cost
 void explain(Profile& profile, const Setup& setup, const frontend::Traits& traits) {
   const std::string n = std::to_string(setup.size);
   profile.notes.push_back(
-      "Wall-clock time per fragment when " + n + " x " + n +
-      " copies of one pixel's thread keep the whole device busy, the empty draw subtracted: a lower "
-      "bound for incoherent memory access, and no sum over pixels gives the time of the draw.");
+      "CPU-clock time of a draw of " + n + " x " + n +
+      " copies of one pixel's thread, the empty draw subtracted, per copy. The device runs several copies at "
+      "once and all read the same memory: compare pixels with each other; the sum is not the time of the "
+      "program's draw.");
   if (traits.uses_derivatives)
     profile.notes.push_back(
         "The shader uses derivatives or texture lookups with implicit level of detail: between "
@@ -150,18 +164,18 @@ Profile profileIsolate(session::Session& session, const ProfileOptions& options)
   Profile profile;
   profile.method = Method::isolate;
   profile.unit = "ns";
-  profile.passes = kRepeats;
+  profile.passes = kVisits * kRepeats;
   profile.map = isolation.covered();
   profile.check = isolation.check();
   if (options.lines) profile.lines = countLines(session, profile.map, profile.check);
 
   const double left = std::max(options.budget - stopwatch.seconds(), 0.1 * options.budget);
-  const auto affordable = static_cast<std::size_t>(std::max(16.0, left / std::max(setup.per_pixel, 1e-6)));
+  const auto affordable =
+      static_cast<std::size_t>(std::max(16.0, left / kVisits / std::max(setup.per_visit, 1e-6)));
   const std::vector<Sample> plan = planSamples(profile.map, affordable);
   const Measurements measurements = measure(isolation, setup, plan, left, options.progress);
-  assign(measurements, setup, profile.map);
-  profile.reconstruction = reconstruct(measurements, profile.map);
-  profile.spread = median(measurements.spreads);
+  profile.spread = assign(measurements, plan, setup, profile.map);
+  profile.reconstruction = reconstruct(plan, profile.map);
   if (options.progress) options.progress(1);
 
   explain(profile, setup, session.shader(session::Stage::fragment).traits);

@@ -167,7 +167,11 @@ std::vector<Check> checkTimers(const std::map<std::string, Probed>& providers) {
           detail << once / 1e6 << ", " << twice / 1e6 << ", " << thrice / 1e6 << " ms, "
                  << std::lround(100 * timer["share_of_wall"].get<double>())
                  << " % of what the CPU's clock says";
-        detail << " (on " << name << ")" << (timer["trusted"] == true ? "" : ": not used");
+        detail << " (on " << name << ")"
+               << (timer["trusted"] == true ? ""
+                   : timer["name"] == "CPU clock"
+                       ? ": other load disturbs it, and with it profile --method isolate"
+                       : ": not used");
       } else {
         detail << name << " does not have it";
       }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 
 namespace shadestep::profiler {
@@ -145,6 +146,19 @@ double Canvas::textWidth(const std::string& text, const TextStyle& style) {
   cairo_text_extents_t extents;
   cairo_text_extents(cairo_, text.c_str(), &extents);
   return extents.x_advance;
+}
+
+std::vector<std::string> Canvas::wrap(const std::string& text, double width, const TextStyle& style) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || textWidth(longer, style) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+  }
+  return lines;
 }
 
 std::string Canvas::png() const {

@@ -63,6 +63,8 @@ class Canvas {
   // Turned by a quarter to the left, centred on (x, y).
   void textUpwards(double x, double y, const std::string&, const TextStyle& = {});
   double textWidth(const std::string&, const TextStyle& = {});
+  // Broken at blanks into lines that are no wider than `width`, where words allow.
+  std::vector<std::string> wrap(const std::string&, double width, const TextStyle& = {});
 
   std::string png() const;
 

@@ -14,6 +14,7 @@ constexpr double kRoom = 560;  // points for the pixels
 constexpr double kLeft = 56;
 constexpr double kTop = 84;
 constexpr double kLegend = 230;  // width right of the pixels
+constexpr double kNoteHeight = 16;
 constexpr int kBins = 70;
 constexpr Color kDistribution{0.82, 0.835, 0.86};
 
@@ -82,8 +83,14 @@ void drawDistribution(Canvas& canvas, const Rect& r, const ColorRange& range,
 std::string drawHeatMap(const CostMap& map, const HeatMapText& text) {
   const PanelSize size = panelSize(map.width, map.height, kRoom);
   const double panel_height = std::max(size.height, 260.0);
-  const double notes = 18.0 * static_cast<double>(text.notes.size());
-  Canvas canvas(kLeft + std::max(size.width, 260.0) + kLegend, kTop + panel_height + 62 + notes);
+  const double width = kLeft + std::max(size.width, 260.0) + kLegend;
+  const TextStyle note_style{11, false, kFaintInk, Align::left};
+  std::vector<std::string> notes;
+  Canvas measure(1, 1);
+  for (const std::string& note : text.notes)
+    for (std::string& line : measure.wrap(note, width - kLeft - 24, note_style))
+      notes.push_back(std::move(line));
+  Canvas canvas(width, kTop + panel_height + 66 + kNoteHeight * static_cast<double>(notes.size()));
 
   canvas.text(24, 34, text.title, {18, true, kInk, Align::left});
   canvas.text(24, 54, text.subtitle, {12, false, kFaintInk, Align::left});
@@ -100,10 +107,7 @@ std::string drawHeatMap(const CostMap& map, const HeatMapText& text) {
 
   double y = kTop + panel_height + 44;
   drawKey(canvas, kLeft, y, kNoThread, false, "no thread of this draw");
-  for (const std::string& note : text.notes) {
-    y += 18;
-    canvas.text(kLeft, y, note, {11, false, kFaintInk, Align::left});
-  }
+  for (const std::string& line : notes) canvas.text(kLeft, y += kNoteHeight, line, note_style);
   return canvas.png();
 }
 
