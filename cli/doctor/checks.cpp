@@ -39,13 +39,13 @@ struct Probed {
   const Json& context(const char* profile) const { return document["contexts"][profile]; }
 };
 
-Probed probeProvider(const std::string& probe, const std::string& provider, const std::string& preload) {
+Probed probeProvider(const std::vector<std::string>& command, const std::string& preload) {
   std::vector<std::pair<std::string, std::string>> environment;
   if (!preload.empty()) environment.emplace_back("LD_PRELOAD", preload);
-  const CommandResult result = runCommand({probe, provider}, environment, kProbeTimeout);
+  const CommandResult result = runCommand(command, environment, kProbeTimeout);
   Probed probed{Json::parse(result.out, nullptr, false), ""};
   if (!result.started)
-    probed.failure = "the probe (" + probe + ") cannot be started";
+    probed.failure = "the probe (" + command.front() + ") cannot be started";
   else if (result.timed_out)
     probed.failure = "the driver did not answer within a minute";
   else if (result.status >= 128)
@@ -189,12 +189,15 @@ std::vector<Check> checkMachine(const std::string& interceptor, const std::strin
   std::map<std::string, Probed> usable;
   bool any_hooked = false;
   for (const ProviderName& provider : kProviders) {
-    const Probed bare = probeProvider(probe, provider.argument, "");
+    const Probed bare =
+        probeProvider(usable.empty() ? std::vector<std::string>{probe, provider.argument, "timers"}
+                                     : std::vector<std::string>{probe, provider.argument},
+                      "");
     checks.push_back(checkProvider(provider.shown, bare));
     if (!hasContext(bare)) continue;
     usable.emplace(provider.shown, bare);
     checks.push_back(
-        checkHook(provider.shown, bare, probeProvider(probe, provider.argument, interceptor), interceptor));
+        checkHook(provider.shown, bare, probeProvider({probe, provider.argument}, interceptor), interceptor));
     any_hooked = any_hooked || checks.back().ok;
   }
   checks.push_back({"OpenGL", any_hooked,

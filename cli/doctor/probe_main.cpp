@@ -1,5 +1,6 @@
-// shadestep-doctor-probe PROVIDER: what one provider of OpenGL offers here, as one JSON document. A process
-// of its own, because drivers crash; run bare and under the interceptor by `shadestep doctor`.
+// shadestep-doctor-probe PROVIDER [timers]: what one provider of OpenGL offers here, as one JSON document;
+// with `timers`, also whether its clocks can be trusted, which takes some seconds. A process of its own,
+// because drivers crash; run bare and under the interceptor by `shadestep doctor`.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -51,9 +52,10 @@ Json describeContext(const ProbeContext& context, bool with_timers) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Provider provider = providerByName(argc == 2 ? argv[1] : "");
-  if (!provider.create) {
-    std::cerr << "usage: shadestep-doctor-probe osmesa|egl|glx\n";
+  const Provider provider = providerByName(argc >= 2 ? argv[1] : "");
+  const bool with_timers = argc == 3 && std::string(argv[2]) == "timers";
+  if (!provider.create || argc > (with_timers ? 3 : 2)) {
+    std::cerr << "usage: shadestep-doctor-probe osmesa|egl|glx [timers]\n";
     return 2;
   }
   Json document;
@@ -63,8 +65,9 @@ int main(int argc, char** argv) {
         std::pair{Profile::es, "es"}}) {
     std::string error;
     const std::unique_ptr<ProbeContext> context = provider.create(profile, error);
-    document["contexts"][name] =
-        context != nullptr ? describeContext(*context, profile == Profile::core) : Json{{"error", error}};
+    document["contexts"][name] = context != nullptr
+                                     ? describeContext(*context, with_timers && profile == Profile::core)
+                                     : Json{{"error", error}};
   }
   std::cout << document.dump(1, ' ', false, Json::error_handler_t::replace) << std::endl;
   // Drivers' exit handlers are not under test here.
