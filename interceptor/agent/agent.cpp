@@ -28,6 +28,8 @@ constexpr auto kRelaxed = std::memory_order_relaxed;
 constinit wire::StatusPage own_page{};
 constinit std::atomic<wire::StatusPage*> page{&own_page};
 
+constinit std::atomic<bool> connected{false};
+
 // Where the session wants the program to stop; read without a lock on every draw.
 constinit std::atomic<bool> armed{false};
 constinit std::atomic<bool> report_frames{false};
@@ -72,6 +74,7 @@ void obey(const wire::ResumeT& resume) {
 }
 
 void letGo(wire::Channel& channel) {
+  connected.store(false, kRelaxed);
   armed.store(false, kRelaxed);
   channel.close();
 }
@@ -136,6 +139,7 @@ void inForkedChild() {
   own_page.draws.store(parents->draws.load(kRelaxed), kRelaxed);
   page.store(&own_page, kRelaxed);
   connection().channel.close();
+  connected.store(false, kRelaxed);
 }
 
 }  // namespace
@@ -148,6 +152,7 @@ void onLoad() {
   session.channel = wire::Channel::connect(socket);
   if (!session.page_memory || !session.channel.open()) return session.channel.close();
   page.store(new (session.page_memory.data()) wire::StatusPage{}, kRelaxed);
+  connected.store(true, kRelaxed);
   pthread_atfork(nullptr, nullptr, inForkedChild);
 
   wire::HelloT hello;
@@ -161,16 +166,18 @@ void onLoad() {
 }
 
 void onExit() {
+  if (!connected.load(kRelaxed)) return;
+  // Not waiting: a signal handler may end the program on the very thread that is stopped.
   Connection& session = connection();
-  const std::lock_guard lock(session.mutex);
+  const std::unique_lock lock(session.mutex, std::try_to_lock);
+  if (!lock.owns_lock() || !session.channel.open()) return;
   armed.store(false, kRelaxed);
-  if (!session.channel.open()) return;
   const wire::StatusPage& status = *page.load(kRelaxed);
   wire::ExitingT exiting;
   exiting.frames = status.frame.load(kRelaxed);
   exiting.draws = status.draw.load(kRelaxed);
   sendBody(session.channel, std::move(exiting));
-  session.channel.close();
+  letGo(session.channel);
 }
 
 }  // namespace shadestep::agent

@@ -80,10 +80,23 @@ std::uint64_t pixelBytes(int width, int height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 16;
 }
 
+// Where blending and masks are the same for all draw buffers, what the program set holds for captures too.
+Refusal obstacleInSharedState() {
+  GLboolean mask[4] = {};
+  gl().GetBooleanv(GL_COLOR_WRITEMASK, mask);
+  if (!gl().IsEnabled(GL_BLEND) && mask[0] && mask[1] && mask[2] && mask[3]) return {};
+  return guard::unsupported(
+      "blending or a colour mask is on, and this driver cannot switch it off for capture buffers alone");
+}
+
 // State of the program under which capture buffers would not hold what the shader wrote.
 Refusal captureObstacle(const guard::ContextFacts& facts,
                         const std::vector<capture::CaptureBuffer>& captures) {
-  if (captures.empty() || facts.es) return {};
+  if (captures.empty()) return {};
+  if (!facts.indexedDrawBuffers()) {
+    if (Refusal refusal = obstacleInSharedState(); !refusal.text.empty()) return refusal;
+  }
+  if (facts.es) return {};
   const auto is_float = [](const capture::CaptureBuffer& buffer) {
     return buffer.format == wire::CaptureFormat::Float4;
   };
@@ -91,18 +104,14 @@ Refusal captureObstacle(const guard::ContextFacts& facts,
     return guard::unsupported(
         "a logic operation on colours is active (GL_COLOR_LOGIC_OP), which would change captured words");
   }
-  if (facts.compatibility() && std::any_of(captures.begin(), captures.end(), is_float) &&
-      facts.atLeast(30, 0)) {
+  if (facts.compatibility() && facts.atLeast(30, 0) &&
+      std::any_of(captures.begin(), captures.end(), is_float)) {
     GLint clamp = GL_FALSE;
     gl().GetIntegerv(GL_CLAMP_FRAGMENT_COLOR, &clamp);
     if (clamp == GL_TRUE) {
       return guard::unsupported(
           "fragment colours are clamped (GL_CLAMP_FRAGMENT_COLOR), which would change captured floats");
     }
-  }
-  if (!facts.indexedDrawBuffers() && gl().IsEnabled(GL_BLEND)) {
-    return guard::unsupported(
-        "blending is on, and this driver cannot switch it off for capture buffers alone");
   }
   return {};
 }

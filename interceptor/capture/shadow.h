@@ -52,7 +52,6 @@ class Shadow {
   void attachCaptures(const std::vector<CaptureBuffer>&);
   void copyProgramContents() const;
   void selectDrawBuffers(const std::vector<CaptureBuffer>&) const;
-  void readColor(GLenum attachment, const Format*, void* words) const;
   std::size_t pixels() const;
 
   const guard::ContextFacts& facts_;

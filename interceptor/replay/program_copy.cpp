@@ -9,6 +9,7 @@
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/replay/outputs.h"
 
 namespace shadestep::replay {
 namespace {
@@ -137,80 +138,8 @@ void copyFeedbackVaryings(GLuint original, GLuint copy) {
   gl().TransformFeedbackVaryings(copy, count, pointers.data(), static_cast<GLenum>(mode));
 }
 
-// The shader's own outputs keep their locations. Returns the locations taken.
-OrRefusal<std::set<int>> bindUserOutputs(const Original& original, GLuint copy,
-                                         const std::vector<std::string>& outputs, int most) {
-  std::set<int> taken;
-  const bool indexed =
-      dispatch::available("glGetFragDataIndex") && dispatch::available("glBindFragDataLocationIndexed");
-  for (const std::string& name : outputs) {
-    const GLint location = gl().GetFragDataLocation(original.program, name.c_str());
-    if (location < 0) continue;  // not written by the original
-    if (indexed && gl().GetFragDataIndex(original.program, name.c_str()) > 0) {
-      return guard::unsupported(
-          "the shader uses dual-source blending, which leaves no draw buffer to capture into");
-    }
-    if (dispatch::available("glBindFragDataLocation")) {
-      gl().BindFragDataLocation(copy, static_cast<GLuint>(location), name.c_str());
-    }
-    taken.insert(location);
-    for (int i = 1; i < most; ++i) {  // an array's other elements
-      const GLint element =
-          gl().GetFragDataLocation(original.program, (name + "[" + std::to_string(i) + "]").c_str());
-      if (element < 0) break;
-      taken.insert(element);
-    }
-  }
-  guard::clearErrors();
-  return taken;
-}
-
-// Finds a draw buffer for every capture: neither an output of the shader nor a buffer of the program's
-// framebuffer.
-OrRefusal<std::vector<capture::CaptureBuffer>> placeCaptures(const guard::ContextFacts& facts,
-                                                             const Original& original,
-                                                             const wire::PrepareT& request,
-                                                             std::set<int> taken) {
-  std::vector<capture::CaptureBuffer> placed;
-  for (const auto& color : original.target.colors) taken.insert(color.draw_buffer);
-  int next = 0;
-  for (std::size_t i = 0; i < request.captures.size(); ++i) {
-    if (request.first_frag_data >= 0) {
-      next = request.first_frag_data + static_cast<int>(i);
-      if (taken.count(next) != 0) {
-        return guard::limit("gl_FragData[" + std::to_string(next) +
-                            "] is a buffer of the program's own framebuffer");
-      }
-    } else {
-      while (taken.count(next) != 0) ++next;
-    }
-    if (next >= facts.max_draw_buffers) {
-      return guard::limit(std::to_string(request.captures.size()) +
-                          " capture buffers beside the program's own are more than the " +
-                          std::to_string(facts.max_draw_buffers) +
-                          " draw buffers of this driver; capture less at once");
-    }
-    taken.insert(next);
-    placed.push_back({next, request.captures[i]->format});
-  }
-  return placed;
-}
-
 // ---- after the link
 // ------------------------------------------------------------------------------------------
-
-// The driver has the last word on where an output is: a layout in the text overrides what was bound.
-Refusal confirmCaptures(const wire::PrepareT& request, ProgramCopy& copy) {
-  for (std::size_t i = 0; i < request.captures.size(); ++i) {
-    const std::string& name = request.captures[i]->name;
-    if (name.empty() || request.first_frag_data >= 0) continue;
-    const GLint location = gl().GetFragDataLocation(copy.program, name.c_str());
-    if (location < 0)
-      return {wire::ErrorKind::Link, "the linked program has no output " + name + " to capture"};
-    copy.captures[i].location = location;
-  }
-  return {};
-}
 
 // Gives the debugger's storage block a binding that no block of the program has.
 Refusal placeStorageBlock(const guard::ContextFacts& facts, const std::string& block, ProgramCopy& copy) {
@@ -323,6 +252,19 @@ Refusal link(ProgramCopy& copy) {
   return {wire::ErrorKind::Link, "the instrumented program does not link: " + copy.log};
 }
 
+Refusal bindOutputs(const guard::ContextFacts& facts, const Original& original, const wire::PrepareT& request,
+                    ProgramCopy& copy) {
+  auto locations =
+      bindUserOutputs(original.program, copy.program, request.user_outputs, facts.max_draw_buffers);
+  if (auto* refusal = std::get_if<Refusal>(&locations)) return *refusal;
+  const auto& taken = std::get<std::set<int>>(locations);
+  copy.colour_outputs = taken.empty() ? 1 : *taken.rbegin() + 1;
+  auto captures = bindCaptures(facts, original.target, request, copy.program, taken);
+  if (auto* refusal = std::get_if<Refusal>(&captures)) return *refusal;
+  copy.captures = std::get<std::vector<capture::CaptureBuffer>>(std::move(captures));
+  return {};
+}
+
 Refusal build(const guard::ContextFacts& facts, const Original& original, const wire::PrepareT& request,
               ShaderCache& cache, ProgramCopy& copy) {
   copy.program = gl().CreateProgram();
@@ -335,34 +277,24 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
     bindAttributes(original, copy.program);
     copyFeedbackVaryings(original.program, copy.program);
   }
-  std::set<int> taken;
-  if (!request.user_outputs.empty()) {
-    auto locations = bindUserOutputs(original, copy.program, request.user_outputs, facts.max_draw_buffers);
-    if (auto* refusal = std::get_if<Refusal>(&locations)) return *refusal;
-    taken = std::get<std::set<int>>(locations);
-  }
-  copy.colour_outputs = taken.empty() ? 1 : *taken.rbegin() + 1;
-  auto captures = placeCaptures(facts, original, request, taken);
-  if (auto* refusal = std::get_if<Refusal>(&captures)) return *refusal;
-  copy.captures = std::get<std::vector<capture::CaptureBuffer>>(std::move(captures));
-  for (std::size_t i = 0; i < request.captures.size(); ++i) {
-    const std::string& name = request.captures[i]->name;
-    if (!name.empty() && dispatch::available("glBindFragDataLocation")) {
-      gl().BindFragDataLocation(copy.program, static_cast<GLuint>(copy.captures[i].location), name.c_str());
-    }
-  }
-
-  if (const Refusal failed = link(copy); !failed.text.empty()) return failed;
-  if (const Refusal failed = confirmCaptures(request, copy); !failed.text.empty()) return failed;
-  if (const Refusal failed = placeStorageBlock(facts, request.storage_block, copy); !failed.text.empty())
+  if (Refusal failed = bindOutputs(facts, original, request, copy); !failed.text.empty()) return failed;
+  if (Refusal failed = link(copy); !failed.text.empty()) return failed;
+  if (Refusal failed = confirmCaptures(facts, original.target, request, copy.program, copy.captures);
+      !failed.text.empty()) {
     return failed;
+  }
   if (copy.covering) {
     copy.position_attribute = positionAttribute(copy.program);
   } else {
+    // While the original is current: its choice is state of the context.
     copy.subroutines = subroutineChoices(facts, original.program, copy.program);
   }
   const std::string not_copied = copyUniforms(facts, original.program, copy.program);
   if (!not_copied.empty()) return guard::unsupported(not_copied);
+  // After the program's own blocks have got their bindings: it takes one that is left.
+  if (Refusal failed = placeStorageBlock(facts, request.storage_block, copy); !failed.text.empty()) {
+    return failed;
+  }
   return {};
 }
 

@@ -96,9 +96,11 @@ inline void run(const std::vector<std::string>& command) {
 
 class Session {
  public:
+  // `out`: the scene's second argument, "" for none.
   Session(const std::string& scene, const std::string& name, const std::string& out)
       : listener_(*wire::Listener::create()),
-        scene_({scene, name, out}, {"LD_PRELOAD=" PRELOAD_LIBRARY, "SHADESTEP_SOCKET=" + listener_.name()}),
+        scene_(command(scene, name, out),
+               {"LD_PRELOAD=" PRELOAD_LIBRARY, "SHADESTEP_SOCKET=" + listener_.name()}),
         channel_(listener_.accept(kPatience)) {
     const auto hello = receive();
     if (hello == nullptr || hello->body.AsHello() == nullptr) {
@@ -181,6 +183,11 @@ class Session {
   }
 
  private:
+  static std::vector<std::string> command(const std::string& scene, const std::string& name,
+                                          const std::string& out) {
+    return out.empty() ? std::vector<std::string>{scene, name} : std::vector<std::string>{scene, name, out};
+  }
+
   wire::Listener listener_;
   Scene scene_;
   wire::Channel channel_;

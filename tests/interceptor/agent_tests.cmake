@@ -8,9 +8,15 @@ target_link_libraries(agent-scene-osmesa PRIVATE PkgConfig::OSMESA)
 add_executable(agent-scene-egl agent_scene_egl.cpp)
 target_link_libraries(agent-scene-egl PRIVATE PkgConfig::GL)
 
-shadestep_test(agent_test SOURCES agent_test.cpp LINKS shadestep-wire LABELS interceptor)
-target_compile_definitions(agent_test PRIVATE
-  PRELOAD_LIBRARY="$<TARGET_FILE:shadestep-gl>"
-  SCENE_OSMESA="$<TARGET_FILE:agent-scene-osmesa>"
-  SCENE_EGL="$<TARGET_FILE:agent-scene-egl>")
-add_dependencies(agent_test shadestep-gl agent-scene-osmesa agent-scene-egl)
+add_executable(agent-situation agent_situation.cpp)
+target_link_libraries(agent-situation PRIVATE PkgConfig::OSMESA)
+
+foreach(test agent_test agent_situation_test)
+  shadestep_test(${test} SOURCES ${test}.cpp LINKS shadestep-wire LABELS interceptor)
+  target_compile_definitions(${test} PRIVATE
+    PRELOAD_LIBRARY="$<TARGET_FILE:shadestep-gl>"
+    SCENE_OSMESA="$<TARGET_FILE:agent-scene-osmesa>"
+    SCENE_EGL="$<TARGET_FILE:agent-scene-egl>"
+    SITUATION="$<TARGET_FILE:agent-situation>")
+  add_dependencies(${test} shadestep-gl agent-scene-osmesa agent-scene-egl agent-situation)
+endforeach()

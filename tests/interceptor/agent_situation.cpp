@@ -1,0 +1,285 @@
+// agent_situation NAME: one draw in a situation that a debugger must tell from an ordinary one, or must leave
+// as it was. Exits with 0 if afterwards all is as it should be without a debugger. Nothing here knows of the
+// debugger.
+#include "agent_scene.h"
+
+#include <GL/osmesa.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <map>
+
+namespace {
+
+constexpr const char* kVertex = "#version 330 compatibility\nvoid main() { gl_Position = gl_Vertex; }\n";
+constexpr const char* kFragment =
+    "#version 330 compatibility\nout vec4 color;\nvoid main() { color = vec4(0.5); }\n";
+
+constexpr GLfloat kCorners[] = {-1, -1, 3, -1, -1, 3};
+
+// Newer than what libOSMesa exports by name.
+template <class Function>
+Function opened(const char* name) {
+  return reinterpret_cast<Function>(OSMesaGetProcAddress(name));
+}
+
+GLuint link(const char* vertex, const std::vector<const char*>& fragments) {
+  const GLuint program = glCreateProgram();
+  glAttachShader(program, scene::compile(GL_VERTEX_SHADER, {vertex}));
+  for (const char* text : fragments) glAttachShader(program, scene::compile(GL_FRAGMENT_SHADER, {text}));
+  glLinkProgram(program);
+  return program;
+}
+
+void draw() {
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+bool drawnEverywhere() {
+  std::vector<GLubyte> pixels(static_cast<std::size_t>(scene::kWidth) * scene::kHeight * 4);
+  glReadPixels(0, 0, scene::kWidth, scene::kHeight, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  for (const GLubyte value : pixels) {
+    if (value != 127 && value != 128) return false;
+  }
+  return true;
+}
+
+int ordinary() {
+  glUseProgram(link(kVertex, {kFragment}));
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+int deletedProgram() {
+  const GLuint program = link(kVertex, {kFragment});
+  glUseProgram(program);
+  glDeleteProgram(program);
+  draw();
+  return drawnEverywhere() && glIsProgram(program) ? 0 : 1;
+}
+
+int fixedFunction() {
+  glColor4f(0.5F, 0.5F, 0.5F, 0.5F);
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+int immediateMode() {
+  glUseProgram(link(kVertex, {kFragment}));
+  glBegin(GL_TRIANGLES);
+  for (int i = 0; i < 3; ++i) glVertex2fv(kCorners + 2 * i);
+  glEnd();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+int displayList() {
+  glUseProgram(link(kVertex, {kFragment}));
+  const GLuint list = glGenLists(1);
+  glNewList(list, GL_COMPILE);
+  draw();
+  glEndList();
+  if (drawnEverywhere()) return 1;
+  glCallList(list);
+  return drawnEverywhere() ? 0 : 1;
+}
+
+int activeQuery() {
+  glUseProgram(link(kVertex, {kFragment}));
+  GLuint query = 0;
+  glGenQueries(1, &query);
+  glBeginQuery(GL_SAMPLES_PASSED, query);
+  draw();
+  glEndQuery(GL_SAMPLES_PASSED);
+  GLuint samples = 0;
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &samples);
+  return samples == scene::kWidth * scene::kHeight ? 0 : 1;
+}
+
+int condition() {
+  glUseProgram(link(kVertex, {kFragment}));
+  GLuint query = 0;
+  glGenQueries(1, &query);
+  glBeginQuery(GL_SAMPLES_PASSED, query);
+  glEndQuery(GL_SAMPLES_PASSED);
+  glBeginConditionalRender(query, GL_QUERY_WAIT);
+  draw();
+  glEndConditionalRender();
+  return drawnEverywhere() ? 1 : 0;
+}
+
+int noRasterizer() {
+  glUseProgram(link(kVertex, {kFragment}));
+  glEnable(GL_RASTERIZER_DISCARD);
+  draw();
+  return drawnEverywhere() ? 1 : 0;
+}
+
+int multisampled() {
+  glUseProgram(link(kVertex, {kFragment}));
+  GLuint framebuffer = 0;
+  GLuint color = 0;
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glGenRenderbuffers(1, &color);
+  glBindRenderbuffer(GL_RENDERBUFFER, color);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, GL_RGBA8, scene::kWidth, scene::kHeight);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
+  draw();
+  return 0;
+}
+
+int pipeline() {
+  const GLuint fragment = glCreateShaderProgramv(GL_FRAGMENT_SHADER, 1, &kFragment);
+  GLuint name = 0;
+  glGenProgramPipelines(1, &name);
+  glUseProgramStages(name, GL_FRAGMENT_SHADER_BIT, fragment);
+  glBindProgramPipeline(name);
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+int severalShaders() {
+  glUseProgram(link(kVertex, {"#version 330 compatibility\nvec4 halves() { return vec4(0.5); }\n",
+                              "#version 330 compatibility\nvec4 halves();\nout vec4 color;\n"
+                              "void main() { color = halves(); }\n"}));
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+int feedback() {
+  const GLuint program = glCreateProgram();
+  glAttachShader(program, scene::compile(GL_VERTEX_SHADER, {kVertex}));
+  glAttachShader(program, scene::compile(GL_FRAGMENT_SHADER, {kFragment}));
+  const char* varying = "gl_Position";
+  glTransformFeedbackVaryings(program, 1, &varying, GL_INTERLEAVED_ATTRIBS);
+  glLinkProgram(program);
+  glUseProgram(program);
+  GLuint buffer = 0;
+  GLuint query = 0;
+  glGenBuffers(1, &buffer);
+  glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
+  const std::vector<GLfloat> nothing(100, -7.0F);
+  glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, 400, nothing.data(), GL_STATIC_READ);
+  glGenQueries(1, &query);
+  glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, query);
+  glBeginTransformFeedback(GL_TRIANGLES);
+  draw();
+  draw();
+  glEndTransformFeedback();
+  glEndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
+  GLuint written = 0;
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &written);
+  GLfloat values[100] = {};
+  glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, sizeof values, values);
+  bool right = written == 2 && drawnEverywhere();
+  for (int i = 0; i < 100; ++i) {
+    const float expected[4] = {i < 24 ? kCorners[i / 4 % 3 * 2] : -7,
+                               i < 24 ? kCorners[i / 4 % 3 * 2 + 1] : -7, i < 24 ? 0.0F : -7,
+                               i < 24 ? 1.0F : -7};
+    right = right && values[i] == expected[i % 4];
+  }
+  return right ? 0 : 1;
+}
+
+int subroutines() {
+  const GLuint program =
+      link(kVertex,
+           {"#version 400 compatibility\nsubroutine float Shade();\n"
+            "subroutine(Shade) float quarter() { return 0.25; }\n"
+            "subroutine(Shade) float half_of_it() { return 0.5; }\n"
+            "subroutine uniform Shade shade;\nout vec4 color;\nvoid main() { color = vec4(shade()); }\n"});
+  glUseProgram(program);
+  const auto index = opened<PFNGLGETSUBROUTINEINDEXPROC>("glGetSubroutineIndex");
+  const auto choose = opened<PFNGLUNIFORMSUBROUTINESUIVPROC>("glUniformSubroutinesuiv");
+  const auto ask = opened<PFNGLGETUNIFORMSUBROUTINEUIVPROC>("glGetUniformSubroutineuiv");
+  const GLuint chosen = index(program, GL_FRAGMENT_SHADER, "half_of_it");
+  choose(GL_FRAGMENT_SHADER, 1, &chosen);
+  draw();
+  GLuint now = 77;
+  ask(GL_FRAGMENT_SHADER, 0, &now);
+  return drawnEverywhere() && now == chosen ? 0 : 1;
+}
+
+// A storage block where a debugger would like to put its own.
+int storageBlock() {
+  const GLuint program =
+      link(kVertex, {"#version 430 compatibility\nlayout(std430) readonly buffer Own { float half_of_it; };\n"
+                     "out vec4 color;\nvoid main() { color = vec4(half_of_it); }\n"});
+  GLint bindings = 0;
+  glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
+  const auto last = static_cast<GLuint>(bindings) - 1;
+  opened<PFNGLSHADERSTORAGEBLOCKBINDINGPROC>("glShaderStorageBlockBinding")(program, 0, last);
+  const GLfloat value = 0.5F;
+  GLuint buffer = 0;
+  glGenBuffers(1, &buffer);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, last, buffer);
+  glBufferData(GL_SHADER_STORAGE_BUFFER, sizeof value, &value, GL_STATIC_READ);
+  glUseProgram(program);
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+int messages = 0;
+void GLAPIENTRY onMessage(GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar*, const void*) {
+  ++messages;
+}
+
+int debugMessages() {
+  glUseProgram(link(kVertex, {kFragment}));
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(onMessage, nullptr);
+  draw();
+  const int heard = messages;
+  glEnable(0xdead);  // this one is the program's own
+  return heard == 0 && messages == 1 ? 0 : 1;
+}
+
+// The child draws on with what it has of its parent; the parent's counts are its own.
+int forked() {
+  glUseProgram(link(kVertex, {kFragment}));
+  const pid_t child = fork();
+  if (child == 0) {
+    draw();
+    draw();
+    _exit(21);  // Mesa's exit handlers wait for threads that a fork leaves behind, and so does reading pixels
+  }
+  int status = 0;
+  if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 21) return 1;
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::map<std::string, int (*)()> situations = {
+      {"ordinary", ordinary},
+      {"deleted-program", deletedProgram},
+      {"fixed-function", fixedFunction},
+      {"immediate-mode", immediateMode},
+      {"display-list", displayList},
+      {"query", activeQuery},
+      {"condition", condition},
+      {"no-rasterizer", noRasterizer},
+      {"multisampled", multisampled},
+      {"pipeline", pipeline},
+      {"several-shaders", severalShaders},
+      {"feedback", feedback},
+      {"subroutines", subroutines},
+      {"storage-block", storageBlock},
+      {"debug-messages", debugMessages},
+      {"forked", forked},
+  };
+  const auto situation = situations.find(argc > 1 ? argv[1] : "");
+  if (situation == situations.end()) return 2;
+  alarm(120);  // a hang is a failure too
+  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
+  OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
+  std::vector<unsigned char> buffer(static_cast<std::size_t>(scene::kWidth) * scene::kHeight * 4);
+  if (!OSMesaMakeCurrent(context, buffer.data(), GL_UNSIGNED_BYTE, scene::kWidth, scene::kHeight)) return 5;
+  glEnableClientState(GL_VERTEX_ARRAY);
+  glVertexPointer(2, GL_FLOAT, 0, kCorners);
+  return situation->second();
+}
