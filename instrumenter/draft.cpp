@@ -27,6 +27,10 @@ void replaceAll(std::string& text, std::string_view what, std::string_view by) {
     text.replace(at, what.size(), by);
 }
 
+void addOnce(std::vector<std::string>& texts, std::string_view text) {
+  if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.emplace_back(text);
+}
+
 }  // namespace
 
 Draft::Draft(const frontend::Shader& shader)
@@ -48,14 +52,11 @@ std::string Draft::adapt(std::string_view helper) const {
 }
 
 void Draft::require(std::string_view extension) {
-  const std::string name(extension);
-  if (std::find(extensions_.begin(), extensions_.end(), name) == extensions_.end())
-    extensions_.push_back(name);
+  addOnce(extensions_, extension);
 }
 
 void Draft::declare(std::string_view text) {
-  const std::string line = std::string(text) + "\n";
-  if (declarations_.find(line) == std::string::npos) declarations_ += line;
+  addOnce(declarations_, text);
 }
 
 void Draft::append(std::string_view text) {
@@ -76,8 +77,9 @@ Result<std::string> Draft::finish() {
   const frontend::Place place;
   for (const std::string& extension : extensions_)
     added.push_back(Token{TokenKind::directive, "#extension " + extension + " : require", place, false});
-  if (!declarations_.empty())
-    added.push_back(Token{TokenKind::identifier, "\n" + declarations_, place, false});
+  std::string declarations;
+  for (const std::string& text : declarations_) declarations += "\n" + text;
+  if (!declarations.empty()) added.push_back(Token{TokenKind::identifier, declarations + "\n", place, false});
   user.insert(user.begin() + shader_.first_declaration, added.begin(), added.end());
 
   if (!definitions_.empty()) {

@@ -41,8 +41,8 @@ class Draft {
  private:
   const frontend::Shader& shader_;
   std::string prefix_;
-  std::vector<std::string> extensions_;
-  std::string declarations_, definitions_;
+  std::vector<std::string> extensions_, declarations_;
+  std::string definitions_;
 };
 
 }  // namespace shadestep::instrumenter

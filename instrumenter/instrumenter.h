@@ -129,6 +129,10 @@ struct Probe {
   bool outcome = false;                     // with When::after on a condition: also capture its outcome ("")
 };
 
+// The loops whose iterations `Probe::iterations` numbers, for a probe at this place: those around each call of the
+// path (also one that calls from its own condition or increment), then those around the statement.
+std::vector<frontend::StatementId> numberedLoops(const frontend::Shader&, const Probe&);
+
 // One probe whose words leave through attachments. `first` .. as many watches as fit are taken when
 // there are more than the draw buffers hold: `layout.fields` says which; ask again with the rest.
 Result<AttachmentShader> instrumentSingle(const frontend::Shader&, const Probe&, const Target&);

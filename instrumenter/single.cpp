@@ -124,6 +124,12 @@ void place(Draft& draft, Conditions& conditions, Edits& edits, const Probe& prob
 
 }  // namespace
 
+std::vector<StatementId> numberedLoops(const Shader& shader, const Probe& probe) {
+  std::vector<StatementId> loops;
+  for (const CountedLoop& counted : loopsOnPath(shader, probe)) loops.push_back(counted.loop);
+  return loops;
+}
+
 Result<AttachmentShader> instrumentSingle(const Shader& shader, const Probe& probe, const Target& target) {
   Draft draft(shader);
   Attachments attachments(draft, target);

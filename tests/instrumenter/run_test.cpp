@@ -382,5 +382,41 @@ INSTANTIATE_TEST_SUITE_P(All, SingleRun,
                                   std::get<1>(parameters.param).name;
                          });
 
+// ---- outputs of old dialects on two draw buffers
+// -----------------------------------------------------------------
+
+void expectSameOutputs(const std::string& text) {
+  const frontend::Shader shader = analysed(text);
+  DrawRequest request;
+  request.text = uninstrumented(shader);
+  request.color_buffers = 2;
+  const DrawResult plain = draw(Profile::compatibility, request);
+  ASSERT_EQ(plain.error, "");
+  ASSERT_NE(plain.outputs[1], std::vector<std::uint32_t>(kPixels * 4, 0));
+
+  Probe probe;
+  probe.statement = shader.functions[static_cast<std::size_t>(shader.main)].body;
+  const auto instrumented = instrumentSingle(shader, probe, target(2));
+  ASSERT_TRUE(std::holds_alternative<AttachmentShader>(instrumented));
+  request.text = std::get<AttachmentShader>(instrumented).text;
+  request.capture = std::get<AttachmentShader>(instrumented).layout;
+  const DrawResult result = draw(Profile::compatibility, request);
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.outputs, plain.outputs) << request.text;
+  EXPECT_EQ(decodeMark(request.capture, result.captured[0].data()), kLaunched | kReached);
+}
+
+TEST(TwoDrawBuffers, GlFragColorGoesToBoth) {
+  expectSameOutputs(
+      "#version 120\nvarying vec2 place;\nvoid main() { gl_FragColor = place.xyxy; gl_FragColor.b += 1.0; }");
+}
+
+TEST(TwoDrawBuffers, GlFragDataGoesToEach) {
+  expectSameOutputs(
+      "#version 120\nvarying vec2 place;\n"
+      "void main() { gl_FragData[0] = place.xyxy; gl_FragData[1] = gl_FragData[0] * 2.0; gl_FragData[2] = "
+      "vec4(9.0); }");
+}
+
 }  // namespace
 }  // namespace shadestep::instrumenter::test

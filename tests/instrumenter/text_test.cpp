@@ -125,6 +125,34 @@ TEST(Loop, CountsOnlyWhatTheProbeNumbers) {
                "for (int i = 0; i < n; i++) for (int j = 0; j < n; j++) { CAPTURE; color");
 }
 
+TEST(Loop, IsNumberedAlongTheCallPath) {
+  const Shader shader =
+      analysed(kHead +
+               "bool f() {\nfor (int k = 0; k < 3; k++)\ncolor += 1.0;\nreturn true;\n}\nvoid main() {\n"
+               "while (f()) color += 2.0;\nfor (bool b = f(); b; b = f()) color += 3.0;\n}");
+  const auto loopAt = [&shader](int line) {
+    StatementId id = frontend::statementsAt(shader, line).front();
+    while (shader.statements[static_cast<std::size_t>(id)].increment.empty() &&
+           shader.statements[static_cast<std::size_t>(id)].kind != frontend::StatementKind::while_)
+      id = shader.statements[static_cast<std::size_t>(id)].parent;
+    return id;
+  };
+  const StatementId inner = loopAt(6), outer = loopAt(11), second = loopAt(12);
+  Probe probe = at(shader, 7);
+  EXPECT_EQ(numberedLoops(shader, probe), std::vector<StatementId>{inner});
+  probe.call_path = {0};
+  EXPECT_EQ(numberedLoops(shader, probe), (std::vector<StatementId>{outer, inner}));
+  probe.call_path = {1};  // from the init, before the loop begins
+  EXPECT_EQ(numberedLoops(shader, probe), std::vector<StatementId>{inner});
+  probe.call_path = {2};  // from the increment
+  EXPECT_EQ(numberedLoops(shader, probe), (std::vector<StatementId>{second, inner}));
+  probe.call_path = {0};
+  probe.statement = inner;
+  EXPECT_EQ(numberedLoops(shader, probe), std::vector<StatementId>{outer});
+  probe.when = When::after;
+  EXPECT_EQ(numberedLoops(shader, probe), (std::vector<StatementId>{outer, inner}));
+}
+
 TEST(Loop, InitRunsBeforeTheFirstCondition) {
   const Shader shader = analysed(kHead + "void main() {\nfor (int i = 0; i < n; i++) color += 1.0;\n}");
   Probe probe;
@@ -258,6 +286,110 @@ TEST(Attachments, CarryFloatsWhereThereIsNoBitEncoding) {
   offered.bit_encoding = false;
   expectPart(single(shader, probe, offered),
              "sd_words0 = vec4(3.0, float(uint(u) & 65535u), float(uint(u) >> 16), f); color");
+}
+
+// ---- recordings
+// ------------------------------------------------------------------------------------------------
+
+RecordingShader recording(const Shader& shader) {
+  const auto result = instrumentRecording(shader, target());
+  if (const auto* failure = std::get_if<Failure>(&result)) throw std::runtime_error(failure->reason);
+  return std::get<RecordingShader>(result);
+}
+
+// One line a record: what, where, which values.
+std::string described(const Shader& shader, const RecordingLayout& layout) {
+  static const char* const names[] = {"enter",     "leave",     "before", "statement",
+                                      "condition", "iteration", "return", "jump"};
+  std::string text;
+  for (const RecordLayout& record : layout.records) {
+    text += names[static_cast<int>(record.event)];
+    text += " " + std::to_string(shader.statements[static_cast<std::size_t>(record.statement)].place.line);
+    for (const Field& field : record.fields) text += " " + (field.name.empty() ? "?" : field.name);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Recording, HasARecordForEveryStep) {
+  const Shader shader = analysed(kHead + R"(float f(in float a, out float b) {
+  b = a;
+  if (a > 1.0) return a;
+  return b;
+}
+void main() {
+  float x, y = f(1.0, x);
+  for (int i = 0, j = n; i < j; i++, y += 1.0) {
+    if (y > 4.0) continue;
+    x += y;
+  }
+  while (x > 0.0) break;
+  if (n == 7) discard;
+  color = vec4(x);
+})");
+  EXPECT_EQ(described(shader, recording(shader).layout),
+            "enter 5 a\n"
+            "enter 10\n"
+            "leave 10\n"
+            "statement 6 b\n"
+            "condition 7 ?\n"
+            "return 7 return\n"
+            "return 8 return\n"
+            "before 11\n"
+            "statement 11 x y\n"
+            "before 12\n"
+            "condition 12 ? y i j\n"
+            "iteration 12\n"
+            "condition 13 ?\n"
+            "jump 13\n"
+            "statement 14 x\n"
+            "before 16\n"
+            "condition 16 ?\n"
+            "iteration 16\n"
+            "jump 16\n"
+            "condition 17 ?\n"
+            "jump 17\n"
+            "statement 18 color\n");
+}
+
+TEST(Recording, BuffersReturnedValuesAndEndsDiscardedThreads) {
+  const Shader shader =
+      analysed(kHead + "vec2 f() { return place; }\nvoid main() { if (n > 1) discard; color = f().xyxy; }");
+  const std::string text = recording(shader).text;
+  expectPart(
+      text,
+      "{ vec2 sd_return; return (sd_return = (place), (sd_record(4, 2) && "
+      "(sd_words[sd_at] = floatBitsToInt(sd_return.x), sd_words[sd_at + 1] = floatBitsToInt(sd_return.y), "
+      "true)), sd_return); }");
+  expectPart(text, "{ sd_record(6, 0); sd_end(2); discard; }");
+}
+
+TEST(Recording, LeavesLargeValuesOut) {
+  const Shader shader = analysed(
+      kHead + "void main() {\nfloat a[64], b[65];\na[n] = b[n];\nb[n] = a[n];\ncolor = vec4(a[1]);\n}");
+  EXPECT_EQ(described(shader, recording(shader).layout),
+            "enter 5\nleave 5\nstatement 6 a\nstatement 7 a\nstatement 8\nstatement 9 color\n");
+}
+
+TEST(Recording, HidesAChangedVariableBehindADeclaredOne) {
+  const Shader shader =
+      analysed(kHead + "void main() {\nint i = n;\n{ float i = float(i++); color = vec4(i); }\n}");
+  EXPECT_EQ(described(shader, recording(shader).layout),
+            "enter 5\nleave 5\nstatement 6 i\nstatement 7 i\nstatement 7 color\n");
+}
+
+TEST(Recording, SaysWhatTheDriverLacks) {
+  const std::string body = "void main() {\n}";
+  Target offered = target();
+  offered.storage_buffers = false;
+  auto result = instrumentRecording(analysed(kHead + body), offered);
+  EXPECT_NE(std::get<Failure>(result).reason.find("storage buffers"), std::string::npos);
+  offered = target();
+  offered.bit_encoding = false;
+  result = instrumentRecording(analysed("#version 120\n" + body), offered);
+  EXPECT_NE(std::get<Failure>(result).reason.find("GL_ARB_shader_bit_encoding"), std::string::npos);
+  result = instrumentRecording(analysed("#version 300 es\n" + body), target());
+  EXPECT_NE(std::get<Failure>(result).reason.find("3.10"), std::string::npos);
 }
 
 // ---- properties of whole texts
