@@ -27,9 +27,10 @@ double fastest(const std::vector<double>& times) {
 
 // What is fixed before measuring begins.
 struct Setup {
-  int size = 64;              // fragments per side
-  double baseline = 0;        // ns of a draw without the work
-  double per_visit = 0;       // seconds that visiting one pixel takes, references included
+  int size = 64;         // fragments per side
+  double baseline = 0;   // ns of a draw without the work
+  double per_visit = 0;  // seconds that visiting one pixel takes, references included
+  SameOutput same_output;
   std::size_t reference = 0;  // pixel of middling cost
 };
 
@@ -55,6 +56,9 @@ Setup calibrate(Isolation& isolation) {
     if (cost >= kEnough || cost - setup.baseline >= kClear * uncertainty) break;
   }
   setup.per_visit *= 1 + 2.0 / kBetweenReferences;
+  std::vector<std::size_t> pixels;
+  for (const Sample& probe : probes) pixels.push_back(probe.pixel);
+  setup.same_output = isolation.compareOutputs(pixels);
   return setup;
 }
 
@@ -149,6 +153,11 @@ void explain(Profile& profile, const Setup& setup, const frontend::Traits& trait
       " copies of one pixel's thread, the empty draw subtracted, per copy. The device runs several copies at "
       "once and all read the same memory: compare pixels with each other; the sum is not the time of the "
       "program's draw.");
+  const auto [tried, same] = setup.same_output;
+  if (same < tried)
+    profile.notes.push_back("Only " + std::to_string(same) + " of " + std::to_string(tried) +
+                            " threads tried alone give the very colours of the program's draw; blending or "
+                            "overlapping fragments may be why, else their cost may differ too.");
   if (traits.uses_derivatives)
     profile.notes.push_back(
         "The shader uses derivatives or texture lookups with implicit level of detail: between "
@@ -167,6 +176,7 @@ Profile profileIsolate(session::Session& session, const ProfileOptions& options)
   profile.passes = kVisits * kRepeats;
   profile.map = isolation.covered();
   profile.check = isolation.check();
+  profile.same_output = setup.same_output;
   if (options.lines) profile.lines = countLines(session, profile.map, profile.check);
 
   const double left = std::max(options.budget - stopwatch.seconds(), 0.1 * options.budget);

@@ -1,6 +1,7 @@
 #include "profiler/isolation.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "profiler/profile_parts.h"
 
@@ -68,18 +69,43 @@ void Isolation::keep(const session::Captured& captured,
     }
 }
 
-std::vector<double> Isolation::draw(const session::Prepared& prepared, std::size_t pixel, int size,
-                                    int repeats) {
+SameOutput Isolation::compareOutputs(const std::vector<std::size_t>& pixels) {
+  const session::Prepared original = session_.prepareOriginal();
+  session::ExecuteOptions whole;
+  whole.compare = false;
+  whole.read_outputs = true;
+  const std::vector<std::vector<float>> expected = session_.execute(original, whole).outputs;
+  SameOutput result;
+  for (const std::size_t pixel : pixels) {
+    session::ExecuteOptions one = optionsFor(pixel, 1);
+    one.read_outputs = true;
+    const std::vector<std::vector<float>> found = session_.execute(isolated_, one).outputs;
+    bool same = found.size() >= expected.size();
+    for (std::size_t i = 0; same && i < expected.size(); ++i)
+      same = std::memcmp(found[i].data(), expected[i].data() + 4 * pixel, 4 * sizeof(float)) == 0;
+    ++result.tried;
+    result.same += same ? 1 : 0;
+  }
+  return result;
+}
+
+session::ExecuteOptions Isolation::optionsFor(std::size_t pixel, int size) const {
   session::ExecuteOptions execute;
   execute.compare = false;
   execute.read_captures = false;
-  execute.repeats = repeats;
   execute.covering_size = size;
   for (const Input& input : inputs_) {
     const auto first = input.words.begin() + static_cast<std::ptrdiff_t>(pixel * input.words_per_pixel);
     execute.uniforms.push_back(input.uniform);
     execute.uniforms.back().words.assign(first, first + static_cast<std::ptrdiff_t>(input.words_per_pixel));
   }
+  return execute;
+}
+
+std::vector<double> Isolation::draw(const session::Prepared& prepared, std::size_t pixel, int size,
+                                    int repeats) {
+  session::ExecuteOptions execute = optionsFor(pixel, size);
+  execute.repeats = repeats;
   std::vector<double> nanoseconds;
   for (const std::chrono::nanoseconds time : session_.execute(prepared, execute).times)
     nanoseconds.push_back(static_cast<double>(time.count()));

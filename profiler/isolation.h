@@ -23,6 +23,8 @@ class Isolation {
   std::vector<double> time(std::size_t pixel, int size, int repeats);
   // The same draws without the work.
   std::vector<double> timeBaseline(std::size_t pixel, int size, int repeats);
+  // Compares the colour outputs of these pixels' threads, alone, with those of the program's own draw.
+  SameOutput compareOutputs(const std::vector<std::size_t>& pixels);
 
  private:
   // The captured values of one input.
@@ -33,6 +35,7 @@ class Isolation {
   };
   void captureInputs(const std::vector<instrumenter::IsolatedInput>&, const ProfileOptions&);
   void keep(const session::Captured&, const std::vector<instrumenter::IsolatedInput>&);
+  session::ExecuteOptions optionsFor(std::size_t pixel, int size) const;
   std::vector<double> draw(const session::Prepared&, std::size_t pixel, int size, int repeats);
 
   session::Session& session_;

@@ -47,6 +47,13 @@ struct Reconstruction {
   double error = 0;
 };
 
+// isolate: does a thread alone compute what it computes in the program's draw? Of the pixels tried, how many
+// have bit for bit the same colour outputs. Blending and overlapping fragments make them differ too, so this
+// judges the method only where the draw has neither.
+struct SameOutput {
+  std::size_t tried = 0, same = 0;
+};
+
 struct LineCost {
   int line = 0;
   std::uint64_t hits = 0;       // executions of statements that begin on the line, over all profiled threads
@@ -64,6 +71,7 @@ struct Profile {
   double total = 0, median = 0, p95 = 0;  // over all covered pixels
   double spread = 0;  // median over pixels of the relative spread of its repeats (relativeSpread)
   std::optional<Reconstruction> reconstruction;  // where not all covered pixels were measured
+  std::optional<SameOutput> same_output;         // isolate only
   std::vector<LineCost> lines;                   // lines that ran or could have run, in order
   session::Check check;                          // of all instrumented replays of the draw
   std::vector<std::string> notes;  // what a reader must know to read the numbers right, a sentence each

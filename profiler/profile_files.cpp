@@ -91,6 +91,8 @@ Json toJson(const Profile& profile, const ProfileFiles& files) {
   if (profile.reconstruction)
     document["reconstruction"] = {{"held_out", profile.reconstruction->held_out},
                                   {"error", number(profile.reconstruction->error)}};
+  if (profile.same_output)
+    document["same_output"] = {{"tried", profile.same_output->tried}, {"same", profile.same_output->same}};
   document["lines"] = linesOf(profile);
   document["check"] = checkOf(profile.check);
   document["notes"] = profile.notes;

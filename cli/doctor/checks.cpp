@@ -156,6 +156,7 @@ std::vector<Check> checkTimers(const std::map<std::string, Probed>& providers) {
     std::vector<Check> checks;
     for (const Json& timer : timers) {
       std::ostringstream detail;
+      detail.precision(4);
       const double once = timer["once"];
       const double twice = timer["twice"];
       const double thrice = timer["thrice"];

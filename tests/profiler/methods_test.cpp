@@ -139,6 +139,10 @@ TEST_F(Methods, isolate_measures_a_part_and_says_how_well_the_rest_is_known) {
   EXPECT_GT(profile.reconstruction->held_out, 0U);
   EXPECT_EQ(profile.map.costs().size(), profile.covered);
   for (const double cost : profile.map.costs()) EXPECT_GE(cost, 0);
+  ASSERT_TRUE(profile.same_output.has_value());
+  EXPECT_GT(profile.same_output->tried, 4U);
+  EXPECT_EQ(profile.same_output->same, profile.same_output->tried)
+      << "a thread alone computes something else";
 }
 
 }  // namespace
