@@ -21,8 +21,8 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
                " draw buffers of this driver, so none is left to capture values in.";
   }
 
-  // gl_FragColor and gl_FragData exclude declared outputs, and below 1.30 there are none.
-  frag_data_ = writesFragData(shader) || shader.version < 130;
+  // gl_FragColor and gl_FragData exclude declared outputs, which below 1.30 only extensions bring.
+  frag_data_ = writesFragData(shader) || (shader.version < 130 && shader.outputs.empty());
   const bool bits = draft.es() || shader.version >= 330 || target.bit_encoding;
   layout_.carrier = !frag_data_ && bits ? Carrier::uint_attachments : Carrier::float_attachments;
   if (frag_data_) layout_.first_frag_data = target.used_draw_buffers;

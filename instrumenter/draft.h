@@ -11,13 +11,18 @@
 
 namespace shadestep::instrumenter {
 
+// #version 100 is ES without saying so.
+inline bool isEs(const frontend::Shader& shader) {
+  return shader.profile == "es" || shader.version == 100;
+}
+
 class Draft {
  public:
   // Keeps a reference to the shader.
   explicit Draft(const frontend::Shader& shader);
 
   const frontend::Shader& shader() const { return shader_; }
-  bool es() const { return shader_.profile == "es"; }
+  bool es() const { return isEs(shader_); }
 
   // "<prefix><suffix>", where no identifier of the shader begins with the prefix.
   std::string name(std::string_view suffix) const { return prefix_ + std::string(suffix); }

@@ -32,7 +32,7 @@ std::string leadingDirectives(const Shader& shader) {
 
 // The same outputs, written with constants.
 std::string baseline(const Shader& shader, const Target& target) {
-  const bool es = shader.profile == "es";
+  const bool es = isEs(shader);
   std::string declarations, assignments;
   for (std::size_t i = 0; i < shader.outputs.size(); ++i) {
     const Variable& output = shader.variables[static_cast<std::size_t>(shader.outputs[i])];
@@ -56,7 +56,7 @@ std::string baseline(const Shader& shader, const Target& target) {
 // One triangle that covers the target. Below 1.30 there is no gl_VertexID: attribute 0 gives the corners
 // (-1,-1), (3,-1), (-1,3).
 std::string coveringVertex(const Shader& shader) {
-  const bool has_id = shader.version >= 130 || (shader.profile == "es" && shader.version >= 300);
+  const bool has_id = shader.version >= 130 || (isEs(shader) && shader.version >= 300);
   if (!has_id)
     return versionLine(shader) +
            "attribute vec2 sd_corner;\n"

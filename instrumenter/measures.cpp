@@ -135,6 +135,7 @@ Result<AttachmentShader> instrumentCount(const Shader& shader, const std::vector
 Result<AttachmentShader> instrumentClock(const Shader& shader, const Target& target) {
   Draft draft(shader);
   Measures measures(draft, target);
+  if (draft.es()) return Failure{"GLSL ES has no shader clock; use another method of profiling."};
   if (!target.shader_clock)
     return Failure{"This driver has no GL_ARB_shader_clock; use another method of profiling."};
   draft.require("GL_ARB_shader_clock");

@@ -221,7 +221,7 @@ Item Recorder::item(VariableId id) const {
 }
 
 std::string impossible(const Shader& shader, const Target& target) {
-  const bool es = shader.profile == "es";
+  const bool es = isEs(shader);
   if (es && shader.version < 310)
     return "Recording needs storage buffers, which GLSL ES has from 3.10 on; look at single steps instead.";
   if (!target.storage_buffers)
