@@ -14,6 +14,8 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
   capacity_ = 4 * (target.max_draw_buffers - target.used_draw_buffers);
   if (shader.stage != frontend::Stage::fragment) {
     failure_ = "Only fragment shaders can be captured; choose --stage fragment.";
+  } else if (shader.main == frontend::kNone) {
+    failure_ = "The shader has no main; it is a part of a program whose main is in another shader.";
   } else if (draft.es() && shader.version < 300) {
     failure_ = "A GLSL ES 1.00 shader has a single colour output, so nothing can be captured beside it.";
   } else if (capacity_ <= 0) {

@@ -244,6 +244,16 @@ TEST(Attachments, SayWhatAnOldEsShaderLacks) {
   EXPECT_TRUE(std::holds_alternative<Failure>(instrumentClock(shader, target())));
 }
 
+TEST(Main, MustBeThere) {
+  const Shader shader = analysed(kHead + "vec4 f() {\nreturn place.xyxy;\n}");
+  expectPart(single(shader, at(shader, 6)), "failure: The shader has no main");
+  EXPECT_TRUE(std::holds_alternative<Failure>(instrumentRecording(shader, target())));
+  EXPECT_TRUE(std::holds_alternative<Failure>(instrumentCount(shader, {}, target())));
+  EXPECT_TRUE(std::holds_alternative<Failure>(instrumentClock(shader, target())));
+  EXPECT_TRUE(std::holds_alternative<IsolatedShader>(instrumentIsolate(shader, target())));
+  EXPECT_EQ(inputsProbe(shader).statement, frontend::kNone);
+}
+
 TEST(Names, AreFreshByLooking) {
   const Shader shader =
       analysed(kHead + "int sd_words0 = 1, sd2_ = 2;\nvoid main() {\ncolor = vec4(sd_words0 + sd2_);\n}");
