@@ -214,6 +214,7 @@ void main() {
   color = vec4(place * scale, 0.5, 0.75) * tint;
   color.x += twist[2][1] + float(bias.z) + lights[1].power[1] * texture(image, place).x;
   if (on) color.y += float(bits.y & 7u);
+  color.x += 0.25 * fract((place.x + place.y) * 65536.0);  // shows the last bits of an interpolation
 }
 )glsl";
 
@@ -324,7 +325,12 @@ inline void drawCore(bool own_target) {
   glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
   glGetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &alignment);
   glBindBufferRange(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(bindings) - 1, buffers[2], alignment, 32);
-  if (own_target) glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffers[3]);
+  if (own_target) {
+    GLuint other = 0;
+    glGenFramebuffers(1, &other);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, other);
+  }
   glBindTexture(GL_TEXTURE_2D, texture);
   glViewportIndexedf(3, 1, 2, 3, 4);
   glEnable(static_cast<GLenum>(0xdead));  // leaves GL_INVALID_ENUM waiting
