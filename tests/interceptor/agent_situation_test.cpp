@@ -1,4 +1,6 @@
 // The agent in situations where it must refuse with a reason, or take special care (agent_situation.cpp).
+#include <algorithm>
+
 #include "agent_session.h"
 
 namespace agent_test {

@@ -1,6 +1,4 @@
 // The agent, asked by a session that knows what the scenes' shaders compute (agent_scene.h).
-#include <signal.h>
-
 #include "agent_session.h"
 
 namespace agent_test {
