@@ -25,7 +25,7 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
 
   // gl_FragColor and gl_FragData exclude declared outputs, which below 1.30 only extensions bring.
   frag_data_ = writesFragData(shader) || (shader.version < 130 && shader.outputs.empty());
-  const bool bits = draft.es() || shader.version >= 330 || target.bit_encoding;
+  const bool bits = shader.version >= 130 && (draft.es() || shader.version >= 330 || target.bit_encoding);
   layout_.carrier = !frag_data_ && bits ? Carrier::uint_attachments : Carrier::float_attachments;
   if (frag_data_) layout_.first_frag_data = target.used_draw_buffers;
 }
@@ -49,9 +49,11 @@ void Attachments::declare() {
     draft_.declare(type + buffer(i) + ";");
     if (frag_data_) continue;
     layout_.outputs.push_back(draft_.name("capture" + std::to_string(i)));
-    // In ES a location can be given in the text only; elsewhere it is given before linking.
+    // In ES a location can be given in the text only; below 1.30 the extension that brings outputs asks for
+    // it.
+    const bool located = draft_.es() || draft_.shader().version < 130;
     const std::string location =
-        draft_.es() ? "layout(location = " + std::to_string(used_draw_buffers_ + i) + ") " : "";
+        located ? "layout(location = " + std::to_string(used_draw_buffers_ + i) + ") " : "";
     draft_.declare(location + "out " + type + layout_.outputs.back() + ";");
   }
   if (frag_data_) replaceFragColor(draft_);

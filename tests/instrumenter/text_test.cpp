@@ -244,6 +244,15 @@ TEST(Attachments, SayWhatAnOldEsShaderLacks) {
   EXPECT_TRUE(std::holds_alternative<Failure>(instrumentClock(shader, target())));
 }
 
+TEST(Attachments, StandBesideOutputsThatAnExtensionBrings) {
+  const Shader shader = analysed(
+      "#version 120\n#extension GL_ARB_explicit_attrib_location : require\nlayout(location = 0) out vec4 "
+      "color;\n"
+      "void main() {\ncolor = vec4(1.0);\n}");
+  expectPart(single(shader, at(shader, 5)),
+             "vec4 sd_words0; layout(location = 1) out vec4 sd_capture0; layout");
+}
+
 TEST(Main, MustBeThere) {
   const Shader shader = analysed(kHead + "vec4 f() {\nreturn place.xyxy;\n}");
   expectPart(single(shader, at(shader, 6)), "failure: The shader has no main");
