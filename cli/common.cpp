@@ -115,6 +115,18 @@ void runToSelection(session::Session& session, const Common& common) {
   }
 }
 
+std::size_t pixelIndex(session::Session& session, const std::string& text) {
+  const std::vector<int> xy = parseIntegers(text, "--pixel", 2, 2);
+  const session::DrawFacts& facts = session.facts();
+  if (xy[0] < 0 || xy[1] < 0 || xy[0] >= facts.width || xy[1] >= facts.height) {
+    throw Error(Outcome::nothing_matches, "pixel " + text + " is outside the target of " +
+                                              std::to_string(facts.width) + " x " +
+                                              std::to_string(facts.height) + " pixels");
+  }
+  return static_cast<std::size_t>(xy[1]) * static_cast<std::size_t>(facts.width) +
+         static_cast<std::size_t>(xy[0]);
+}
+
 void print(const Json& document) {
   std::cout << document.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";
 }

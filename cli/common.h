@@ -49,6 +49,9 @@ session::Stage selectedStage(const Common&);
 // Launches, runs to the selected draw and checks that it can be debugged.
 void runToSelection(session::Session&, const Common&);
 
+// "X,Y" as an index into the target of the current draw, rows bottom up. Throws usage, nothing_matches.
+std::size_t pixelIndex(session::Session&, const std::string& text);
+
 void print(const Json& document);  // one document on stdout
 Json toJson(const session::Check&);
 std::string describe(const session::Check&);
@@ -61,6 +64,7 @@ void addRun(CLI::App&, Common&, Action&);
 void addDraws(CLI::App&, Common&, Action&);
 void addSource(CLI::App&, Common&, Action&);
 void addDebug(CLI::App&, Common&, Action&);
+void addStep(CLI::App&, Common&, Action&);
 void addLoops(CLI::App&, Common&, Action&);
 void addProfile(CLI::App&, Common&, Action&);
 void addDoctor(CLI::App&, Common&, Action&);

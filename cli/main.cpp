@@ -32,6 +32,7 @@ int runCommandLine(int argc, char** argv) {
   cli::addDraws(app, common, action);
   cli::addSource(app, common, action);
   cli::addDebug(app, common, action);
+  cli::addStep(app, common, action);
   cli::addLoops(app, common, action);
   cli::addProfile(app, common, action);
   cli::addDoctor(app, common, action);

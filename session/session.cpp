@@ -154,11 +154,8 @@ bool DrawFacts::has(const std::string& extension) const {
 }
 
 void Check::merge(const Check& other) {
-  if (!other.compared_at_all) {
-    if (!compared_at_all) reason = other.reason;
-    return;
-  }
-  compared_at_all = true;
+  if (!other.compared_at_all && compared_at_all) reason = other.reason;
+  compared_at_all = compared_at_all && other.compared_at_all;
   compared = std::max(compared, other.compared);
   differing = std::max(differing, other.differing);
 }

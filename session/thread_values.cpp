@@ -104,8 +104,11 @@ Probe probeAt(const Shader& shader, const PlaceSelection& place) {
 
 ThreadValues valuesAt(Session& session, const PlaceSelection& place,
                       const std::vector<std::string>& watches) {
+  return valuesAt(session, probeAt(session.shader(Stage::fragment), place), watches);
+}
+
+ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {
   const Shader& shader = session.shader(Stage::fragment);
-  Probe probe = probeAt(shader, place);
   std::vector<frontend::Watch> wanted;
   for (const std::string& text : watches) {
     frontend::WatchResult resolved = frontend::resolveWatch(shader, probe.statement, text);
@@ -170,7 +173,8 @@ ThreadValues valuesAt(Session& session, const PlaceSelection& place,
       }
       result.values.push_back(std::move(values));
     }
-    done += fields;
+    done += fields - (probe.outcome ? 1 : 0);
+    probe.outcome = false;  // the first pass has it
   } while (done < wanted.size());
 
   for (const std::uint8_t mark : result.marks) {

@@ -176,17 +176,7 @@ void writeImage(const std::string& path, const ThreadValues& threads, const Debu
 int debugValues(session::Session& session, const Common& common, const DebugOptions& options) {
   const session::PlaceSelection place = placeOf(options);
   std::optional<std::size_t> pixel;
-  if (!options.pixel.empty()) {
-    const std::vector<int> xy = parseIntegers(options.pixel, "--pixel", 2, 2);
-    const session::DrawFacts& facts = session.facts();
-    if (xy[0] < 0 || xy[1] < 0 || xy[0] >= facts.width || xy[1] >= facts.height) {
-      throw session::Error(session::Outcome::nothing_matches,
-                           "pixel " + options.pixel + " is outside the target of " +
-                               std::to_string(facts.width) + " x " + std::to_string(facts.height));
-    }
-    pixel = static_cast<std::size_t>(xy[1]) * static_cast<std::size_t>(facts.width) +
-            static_cast<std::size_t>(xy[0]);
-  }
+  if (!options.pixel.empty()) pixel = pixelIndex(session, options.pixel);
 
   const ThreadValues threads = session::valuesAt(session, place, splitList(options.print));
   if (threads.reached == 0) {

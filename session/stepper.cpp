@@ -1,0 +1,131 @@
+#include "session/stepper.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "session/values.h"
+
+namespace shadestep::session {
+namespace {
+
+// The number of a switch's label; throws where it is no plain integer, for then the side that a thread takes
+// is not known here.
+std::int64_t labelValue(const Side& side, int line) {
+  std::string digits = side.name.substr(5);  // "case "
+  std::erase(digits, ' ');
+  const bool negative = digits.starts_with("-");
+  if (negative) digits.erase(0, 1);
+  while (digits.ends_with("u") || digits.ends_with("U")) digits.pop_back();
+  int base = 10;
+  if (digits.starts_with("0x") || digits.starts_with("0X")) {
+    base = 16;
+    digits.erase(0, 2);
+  } else if (digits.size() > 1 && digits.starts_with("0")) {
+    base = 8;
+  }
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
+  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
+    throw Error(Outcome::cannot_debug, "the label '" + side.name + "' of the switch at line " +
+                                           std::to_string(line) +
+                                           " is no plain number; go on with 'line N' inside of the case");
+  }
+  return negative ? -value : value;
+}
+
+// The side that a thread with this outcome takes.
+std::size_t sideOf(const std::vector<Side>& sides, const WatchedValues& outcome, std::size_t pixel,
+                   int line) {
+  if (outcome.type.basic == frontend::Basic::bool_) {
+    const std::string value = *outcome.at(pixel) != 0 ? "true" : "false";
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+      if (sides[s].name == value) return s;
+    }
+  }
+  const auto selector = static_cast<std::int64_t>(componentAsDouble(outcome.type.basic, outcome.at(pixel)));
+  std::size_t otherwise = sides.size() - 1;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (sides[s].name == "default" || sides[s].name == "no case") {
+      otherwise = s;
+    } else if (labelValue(sides[s], line) == selector) {
+      return s;
+    }
+  }
+  return otherwise;
+}
+
+}  // namespace
+
+Stepper::Stepper(Session& session, std::optional<std::size_t> pixel)
+    : session_(session), shader_(session.shader(Stage::fragment)), navigation_(shader_), pixel_(pixel) {
+  position_ = navigation_.start();
+}
+
+void Stepper::moveTo(const Position& position) {
+  position_ = position;
+  sides_.reset();
+}
+
+instrumenter::Probe Stepper::probe() const {
+  if (ended()) throw Error(Outcome::nothing_matches, "the threads have ended; start again");
+  instrumenter::Probe probe;
+  probe.when = position_.condition ? instrumenter::Probe::When::after : instrumenter::Probe::When::before;
+  probe.statement = position_.statement;
+  probe.call_path = position_.call_path;
+  probe.iterations = position_.iterations;
+  return probe;
+}
+
+ThreadValues Stepper::look(const std::vector<std::string>& watches) {
+  return valuesAt(session_, probe(), watches);
+}
+
+const std::vector<TakenSide>& Stepper::sides() {
+  if (sides_) return *sides_;
+  const std::vector<Side> sides = navigation_.sides(position_);
+  if (sides.empty()) return sides_.emplace();
+
+  instrumenter::Probe at_branch = probe();
+  at_branch.outcome = true;
+  const ThreadValues threads = valuesAt(session_, at_branch, {});
+  const WatchedValues& outcome = threads.values.front();
+  const int line = shader_.statements[static_cast<std::size_t>(position_.statement)].place.line;
+  std::vector<TakenSide> ways;
+  for (const Side& side : sides)
+    ways.push_back({side, 0, std::vector<std::uint8_t>(threads.marks.size(), 0)});
+  for (std::size_t p = 0; p < threads.marks.size(); ++p) {
+    if (!threads.reachedAt(p)) continue;
+    TakenSide& taken = ways[sideOf(sides, outcome, p, line)];
+    ++taken.threads;
+    taken.mask[p] = 1;
+  }
+  sides_ = std::move(ways);
+  return *sides_;
+}
+
+void Stepper::choose(const std::string& name) {
+  const std::vector<TakenSide>& ways = sides();
+  if (ways.empty()) throw Error(Outcome::nothing_matches, "no branch is to be decided here");
+  const auto follow = [&] {
+    if (!name.empty()) {
+      return std::find_if(ways.begin(), ways.end(),
+                          [&](const TakenSide& way) { return way.side.name == name; });
+    }
+    if (pixel_) {
+      const auto own = std::find_if(ways.begin(), ways.end(),
+                                    [&](const TakenSide& way) { return way.mask[*pixel_] != 0; });
+      if (own != ways.end()) return own;
+    }
+    return std::max_element(ways.begin(), ways.end(),
+                            [](const TakenSide& a, const TakenSide& b) { return a.threads < b.threads; });
+  };
+  const auto chosen = follow();
+  if (chosen == ways.end()) {
+    std::string names;
+    for (const TakenSide& way : ways) names += (names.empty() ? "" : ", ") + way.side.name;
+    throw Error(Outcome::nothing_matches, "no side '" + name + "' here; there are: " + names);
+  }
+  moveTo(Position(chosen->side.next));
+}
+
+}  // namespace shadestep::session

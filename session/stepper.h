@@ -1,0 +1,54 @@
+// Stepping through a fragment shader for all threads of a draw at once (thesis 7.1.6): a position in the
+// source, the threads that get there, and at a branch how many go which way. Threads that take another way
+// are simply not at the position; after the branch they are again.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/navigation.h"
+#include "session/thread_values.h"
+
+namespace shadestep::session {
+
+// A side of a branch and the threads that take it.
+struct TakenSide {
+  Side side;
+  std::uint64_t threads = 0;
+  std::vector<std::uint8_t> mask;  // per pixel, rows bottom up: 1 where the thread goes this way
+};
+
+class Stepper {
+ public:
+  // At the start of main of the current draw's fragment shader. `pixel` (index into the target) picks the
+  // thread whose way is followed where no side is chosen; without one, the way that most threads take.
+  explicit Stepper(Session&, std::optional<std::size_t> pixel = std::nullopt);
+
+  const frontend::Shader& shader() const { return shader_; }
+  const Navigation& navigation() const { return navigation_; }
+  const Position& position() const { return position_; }
+  bool ended() const { return position_.ended(); }
+
+  void moveTo(const Position&);
+  // Values of variables in scope, of all threads that are at the position. One redraw (more for many
+  // watches).
+  ThreadValues look(const std::vector<std::string>& watches);
+  // At a branch (position().condition): its sides with the threads that take them; empty elsewhere.
+  const std::vector<TakenSide>& sides();
+  // Follows a side by its name, or, without one, the picked thread's or most threads'. Throws
+  // nothing_matches.
+  void choose(const std::string& name = {});
+
+ private:
+  instrumenter::Probe probe() const;
+
+  Session& session_;
+  const frontend::Shader& shader_;
+  Navigation navigation_;
+  Position position_;
+  std::optional<std::size_t> pixel_;
+  std::optional<std::vector<TakenSide>> sides_;  // of the current position, once asked for
+};
+
+}  // namespace shadestep::session
