@@ -78,11 +78,7 @@ Probe probeAt(const Shader& shader, const PlaceSelection& place) {
   const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(probe.statement)];
   probe.call_path = callPath(shader, statement.function, place.call_lines);
 
-  std::size_t loops = frontend::enclosingLoops(shader, probe.statement).size();
-  for (const frontend::CallId call : probe.call_path) {
-    const StatementId at = shader.calls[static_cast<std::size_t>(call)].statement;
-    if (at != kNone) loops += frontend::enclosingLoops(shader, at).size();
-  }
+  const std::size_t loops = instrumenter::numberedLoops(shader, probe).size();
   // A function that is looked at through any call may lie in loops of its callers that are not known here.
   const bool any_call = probe.call_path.empty() && statement.function != shader.main;
   if (place.iteration.size() > loops && !any_call) {
