@@ -154,6 +154,11 @@ bool DrawFacts::has(const std::string& extension) const {
 }
 
 void Check::merge(const Check& other) {
+  const bool fresh = !compared_at_all && reason.empty();
+  if (fresh) {
+    *this = other;
+    return;
+  }
   if (!other.compared_at_all && compared_at_all) reason = other.reason;
   compared_at_all = compared_at_all && other.compared_at_all;
   compared = std::max(compared, other.compared);

@@ -77,7 +77,7 @@ struct Check {
   std::string reason;  // why not compared
   bool identical() const { return compared_at_all && differing == 0; }
   // "identical", "differs", "not compared"
-  void merge(const Check& other);  // the check of two passes together
+  void merge(const Check& other);  // the check of two passes together; a fresh one takes the other over
 };
 
 struct Uniform {
