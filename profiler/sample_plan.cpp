@@ -16,6 +16,21 @@ std::vector<std::size_t> coveredIndices(const CostMap& map) {
   return pixels;
 }
 
+// In random order, those held out evenly among the rest: measuring may stop soon.
+std::vector<Sample> spread(std::vector<Sample> plan, std::mt19937& random) {
+  std::shuffle(plan.begin(), plan.end(), random);
+  std::vector<Sample> fed, held_out;
+  for (const Sample& sample : plan) (sample.held_out ? held_out : fed).push_back(sample);
+  plan.clear();
+  for (std::size_t i = 0, taken = 0; i < fed.size() || taken < held_out.size(); ++i) {
+    if (i < fed.size()) plan.push_back(fed[i]);
+    // As many as fall to the first i + 1 of `fed`, the first one at once.
+    while (taken < held_out.size() && (i >= fed.size() || taken * fed.size() <= i * held_out.size()))
+      plan.push_back(held_out[taken++]);
+  }
+  return plan;
+}
+
 }  // namespace
 
 std::vector<Sample> planSamples(const CostMap& covered, std::size_t affordable) {
@@ -39,8 +54,7 @@ std::vector<Sample> planSamples(const CostMap& covered, std::size_t affordable) 
     for (auto pixel = grid_end; pixel != pixels.end() && pixel - grid_end < held_out; ++pixel)
       plan.push_back({*pixel, true});
   }
-  std::shuffle(plan.begin(), plan.end(), random);
-  return plan;
+  return spread(std::move(plan), random);
 }
 
 }  // namespace shadestep::profiler

@@ -53,6 +53,22 @@ TEST(PlanSamples, every_beginning_is_spread_over_the_picture) {
   EXPECT_NEAR(y, 100, 20);  // the mean of 100 rows of the disc: standard deviation 4
 }
 
+TEST(PlanSamples, every_beginning_holds_its_share_out) {
+  CostMap covered(100, 100);
+  std::fill(covered.state.begin(), covered.state.end(), PixelState::reconstructed);
+  const std::vector<Sample> plan = planSamples(covered, 500);
+  const auto all = std::count_if(plan.begin(), plan.end(), [](const Sample& s) { return s.held_out; });
+  const double share = static_cast<double>(all) / static_cast<double>(plan.size());
+  EXPECT_GT(all, 40);
+  std::size_t held_out = 0;
+  for (std::size_t n = 1; n <= plan.size(); ++n) {
+    held_out += plan[n - 1].held_out ? 1 : 0;
+    if (n < 2) continue;
+    EXPECT_GE(held_out, 1U);
+    EXPECT_NEAR(static_cast<double>(held_out), share * static_cast<double>(n), 2.0) << "of the first " << n;
+  }
+}
+
 TEST(PullPush, keeps_known_values_and_a_constant_everywhere) {
   std::vector<double> values(13 * 7);
   std::vector<std::uint8_t> known(values.size());
