@@ -16,12 +16,16 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
     failure_ = "Only fragment shaders can be captured; choose --stage fragment.";
   } else if (shader.main == frontend::kNone) {
     failure_ = "The shader has no main; it is a part of a program whose main is in another shader.";
-  } else if (draft.es() && shader.version < 300) {
-    failure_ = "A GLSL ES 1.00 shader has a single colour output, so nothing can be captured beside it.";
+  } else if (draft.es() && shader.version < 300 && !target.es_draw_buffers) {
+    failure_ =
+        "A GLSL ES 1.00 shader has a single colour output on this driver, which lacks GL_EXT_draw_buffers, so "
+        "nothing can be captured beside it.";
   } else if (capacity_ <= 0) {
     failure_ = "The program uses all " + std::to_string(target.max_draw_buffers) +
                " draw buffers of this driver, so none is left to capture values in.";
   }
+
+  if (draft.es() && shader.version < 300) draft.require("GL_EXT_draw_buffers");
 
   // gl_FragColor and gl_FragData exclude declared outputs, which below 1.30 only extensions bring.
   frag_data_ = writesFragData(shader) || (shader.version < 130 && shader.outputs.empty());

@@ -381,6 +381,7 @@ instrumenter::Target Session::target() {
   target.storage_buffers = draw.max_storage_blocks > 0;
   target.bit_encoding = draw.has("GL_ARB_shader_bit_encoding") || (draw.es ? version >= 300 : version >= 330);
   target.shader_clock = draw.has("GL_ARB_shader_clock");
+  target.es_draw_buffers = draw.has("GL_EXT_draw_buffers");
   target.max_draw_buffers = draw.max_draw_buffers;
   target.used_draw_buffers = draw.draw_buffers;
   return target;

@@ -244,6 +244,17 @@ TEST(Attachments, SayWhatAnOldEsShaderLacks) {
   EXPECT_TRUE(std::holds_alternative<Failure>(instrumentClock(shader, target())));
 }
 
+TEST(Attachments, OfAnOldEsShaderNeedSeveralDrawBuffersAndFullPrecision) {
+  const Shader shader =
+      analysed("#version 100\nprecision mediump float;\nvoid main() {\ngl_FragColor = vec4(1.0);\n}");
+  Target offered = target();
+  offered.es_draw_buffers = true;
+  const std::string text = single(shader, at(shader, 4), offered);
+  expectPart(text, "#extension GL_EXT_draw_buffers : require");
+  expectPart(text, "highp vec4 sd_words0;");
+  expectPart(text, "gl_FragData[1] = sd_words0; }");
+}
+
 TEST(Attachments, StandBesideOutputsThatAnExtensionBrings) {
   const Shader shader = analysed(
       "#version 120\n#extension GL_ARB_explicit_attrib_location : require\nlayout(location = 0) out vec4 "
