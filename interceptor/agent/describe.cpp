@@ -6,6 +6,7 @@
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/guards.h"
 
 namespace shadestep::agent {
 namespace {
@@ -156,6 +157,7 @@ DrawFacts drawFacts(const calls::DrawCall& call) {
   DrawFacts facts;
   facts.context = guard::contextFacts();
   const guard::ContextFacts& context = facts.context;
+  const guard::SilenceGuard silence(context);  // some questions below are answered by errors
   if (context.atLeast(20, 20)) facts.program = static_cast<GLuint>(integer(GL_CURRENT_PROGRAM));
   if (context.atLeast(41, 31) || context.has("GL_ARB_separate_shader_objects")) {
     facts.pipeline = static_cast<GLuint>(integer(GL_PROGRAM_PIPELINE_BINDING));

@@ -95,6 +95,14 @@ void main()
 }
 )glsl";
 
+// GLSL 3.30: a triangle that covers everything, from three vertices without attributes.
+inline constexpr const char* kCornerVertex = R"glsl(#version 330 core
+void main()
+{
+    gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0);
+}
+)glsl";
+
 // Fills the window with one triangle.
 inline void drawEverywhere() {
   static const float corners[] = {-1, -1, 3, -1, -1, 3};
