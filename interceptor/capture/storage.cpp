@@ -3,6 +3,7 @@
 #include "interceptor/capture/storage.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
@@ -72,7 +73,13 @@ void StorageBuffer::bind(int index) const {
 void StorageBuffer::read(void* words) const {
   gl().MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   gl().BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer_);
-  gl().GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(words_ * 4), words);
+  // Mapped, because OpenGL ES has no glGetBufferSubData. An error is left to the caller.
+  const std::size_t bytes = words_ * 4;
+  const void* mapped =
+      gl().MapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
+  if (mapped == nullptr) return;
+  std::memcpy(words, mapped, bytes);
+  gl().UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
 }
 
 }  // namespace shadestep::capture
