@@ -1,7 +1,6 @@
 #include "profiler/isolation.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "profiler/profile_parts.h"
 
@@ -74,15 +73,16 @@ SameOutput Isolation::compareOutputs(const std::vector<std::size_t>& pixels) {
   session::ExecuteOptions whole;
   whole.compare = false;
   whole.read_outputs = true;
-  const std::vector<std::vector<float>> expected = session_.execute(original, whole).outputs;
+  const std::vector<session::ColorOutput> expected = session_.execute(original, whole).outputs;
   SameOutput result;
   for (const std::size_t pixel : pixels) {
     session::ExecuteOptions one = optionsFor(pixel, 1);
     one.read_outputs = true;
-    const std::vector<std::vector<float>> found = session_.execute(isolated_, one).outputs;
+    const std::vector<session::ColorOutput> found = session_.execute(isolated_, one).outputs;
     bool same = found.size() >= expected.size();
     for (std::size_t i = 0; same && i < expected.size(); ++i)
-      same = std::memcmp(found[i].data(), expected[i].data() + 4 * pixel, 4 * sizeof(float)) == 0;
+      same = std::equal(found[i].words.begin(), found[i].words.begin() + 4,
+                        expected[i].words.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
     ++result.tried;
     result.same += same ? 1 : 0;
   }

@@ -363,6 +363,19 @@ const frontend::Shader& Session::shader(Stage stage) {
               "the draw's program has no " + std::string(stageName(stage)) + " shader; it has: " + present);
 }
 
+namespace {
+
+// Whether a shader could write to memory, seen from its words alone: the others need no analysis.
+bool mayWriteMemory(const StageFacts& stage) {
+  const auto mentions = [](const std::string& text) {
+    return text.find("buffer") != std::string::npos || text.find("image") != std::string::npos ||
+           text.find("atomic") != std::string::npos;
+  };
+  return std::any_of(stage.sources.begin(), stage.sources.end(), mentions);
+}
+
+}  // namespace
+
 void Session::requireCapturable() {
   const frontend::Shader& fragment = shader(Stage::fragment);
   const DrawFacts& draw = facts();
@@ -371,6 +384,15 @@ void Session::requireCapturable() {
     throw Error(Outcome::cannot_debug,
                 "the fragment shader writes to images, storage buffers or atomic counters; this "
                 "version of shadestep cannot put them back after a replay");
+  }
+  for (const StageFacts& stage : draw.stages) {
+    if (stage.stage == Stage::fragment || !mayWriteMemory(stage)) continue;
+    if (shader(stage.stage).traits.writes_memory) {
+      throw Error(Outcome::cannot_debug,
+                  "the " + std::string(stageName(stage.stage)) +
+                      " shader writes to images, storage buffers or atomic counters; this version of "
+                      "shadestep cannot put them back after a replay");
+    }
   }
 }
 
@@ -414,6 +436,22 @@ wire::PrepareT preparation(const frontend::Shader& shader, const std::string& te
     prepare.captures.push_back(std::move(capture));
   }
   return prepare;
+}
+
+frontend::Type pixelType(std::uint32_t gl_type) {
+  constexpr std::uint32_t kInt = 0x1404, kUnsignedInt = 0x1405;  // GL_INT, GL_UNSIGNED_INT
+  frontend::Type type;
+  type.basic = gl_type == kInt           ? frontend::Basic::int_
+               : gl_type == kUnsignedInt ? frontend::Basic::uint_
+                                         : frontend::Basic::float_;
+  type.rows = 4;
+  return type;
+}
+
+// layout(origin_upper_left) in vec4 gl_FragCoord;
+bool countsRowsFromTop(const frontend::Shader& shader) {
+  return std::any_of(shader.tokens.begin(), shader.tokens.end(),
+                     [](const frontend::Token& token) { return token.text == "origin_upper_left"; });
 }
 
 // The words of one range of the bulk memory; throws if the agent's numbers do not fit.
@@ -499,11 +537,16 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
       throw Error(Outcome::failed, "the agent's answer has the wrong size; report this as a bug");
     }
   }
-  for (const auto& range : reply.outputs) {
-    const std::vector<std::uint32_t> words = wordsOf(bulk, range.get());
-    std::vector<float> values(words.size());
-    std::memcpy(values.data(), words.data(), words.size() * 4);
-    result.outputs.push_back(std::move(values));
+  if (reply.output_draw_buffers.size() != reply.outputs.size() ||
+      reply.output_types.size() != reply.outputs.size()) {
+    throw Error(Outcome::failed, "the agent's answer is incomplete; report this as a bug");
+  }
+  for (std::size_t i = 0; i < reply.outputs.size(); ++i) {
+    ColorOutput output;
+    output.draw_buffer = reply.output_draw_buffers[i];
+    output.type = pixelType(reply.output_types[i]);
+    output.words = wordsOf(bulk, reply.outputs[i].get());
+    result.outputs.push_back(std::move(output));
   }
   result.storage = wordsOf(bulk, reply.storage.get());
   for (const std::uint64_t ns : reply.times_ns) result.times.emplace_back(ns);
@@ -553,6 +596,9 @@ Session::Recorded Session::record(int x, int y, int width, int height) {
   const auto& recording_shader = std::get<instrumenter::RecordingShader>(instrumented);
   const Prepared prepared = prepare(recording_shader);
 
+  // The shader compares with gl_FragCoord, which may count rows from the top.
+  const bool from_top = countsRowsFromTop(shader(Stage::fragment));
+  const int first_row = from_top ? facts().height - y - height : y;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   std::uint64_t threads = pixels * kThreadsPerPixel;
   std::uint64_t room = pixels == 1 ? kFirstRoomPerThread : 4096;
@@ -566,7 +612,7 @@ Session::Recorded Session::record(int x, int y, int width, int height) {
     ExecuteOptions options;
     options.uniforms.push_back({recording_shader.layout.pixel_uniform,
                                 0x8B55,
-                                {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(first_row),
                                  static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}});
     options.storage = {0, static_cast<std::uint32_t>(room), static_cast<std::uint32_t>(threads), 0};
     options.storage_words = words;
@@ -582,6 +628,9 @@ Session::Recorded Session::record(int x, int y, int width, int height) {
       if (!thread.complete) wanted = std::max<std::uint64_t>(wanted, thread.wanted);
     }
     if (wanted == 0 && recorded.recording.started <= threads) {
+      for (auto& thread : recorded.recording.threads) {
+        if (from_top) thread.y = facts().height - 1 - thread.y;
+      }
       recorded.visible = joinAttachments(recorded.execution, recording_shader.layout.attachment.words);
       return recorded;
     }

@@ -115,10 +115,17 @@ struct ExecuteOptions {
   int covering_size = 64;  // with a Covering program
 };
 
+// One colour buffer after the draw, in the type that it holds: float, int or uint.
+struct ColorOutput {
+  int draw_buffer = 0;               // the location of the shader's output
+  frontend::Type type;               // of a pixel: vec4, ivec4 or uvec4
+  std::vector<std::uint32_t> words;  // width*height*4, rows bottom up
+};
+
 struct Execution {
   int width = 0, height = 0;
   std::vector<std::vector<std::uint32_t>> attachments;  // each width*height*4 words, rows bottom up
-  std::vector<std::vector<float>> outputs;  // each width*height*4, the program's own colour outputs
+  std::vector<ColorOutput> outputs;                     // the program's own
   std::vector<std::uint32_t> storage;
   std::vector<std::chrono::nanoseconds> times;  // one per repeat: draw + glFinish on the CPU's clock
   Check check;

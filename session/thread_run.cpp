@@ -278,9 +278,9 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
       (static_cast<std::size_t>(y) * static_cast<std::size_t>(recorded.execution.width) +
        static_cast<std::size_t>(x)) *
       4;
-  for (const auto& plane : recorded.execution.outputs) {
-    run.outputs.emplace_back(plane.begin() + static_cast<std::ptrdiff_t>(pixel),
-                             plane.begin() + static_cast<std::ptrdiff_t>(pixel) + 4);
+  for (const ColorOutput& output : recorded.execution.outputs) {
+    const auto first = output.words.begin() + static_cast<std::ptrdiff_t>(pixel);
+    run.outputs.push_back({output.draw_buffer, {output.type, {first, first + 4}}});
   }
   run.check = recorded.execution.check;
   return run;

@@ -41,8 +41,11 @@ struct ThreadRun {
   bool visible = true;  // this one is what the pixel shows (so far)
   bool discarded = false;
   std::vector<Step> steps;
-  std::vector<std::vector<float>>
-      outputs;  // the program's own colour outputs at the pixel after the draw, RGBA
+  struct Output {
+    int draw_buffer = 0;  // the location of the shader's output
+    instrumenter::Value value;
+  };
+  std::vector<Output> outputs;  // what the pixel holds after the draw, RGBA
   Check check;
 };
 

@@ -89,11 +89,9 @@ std::string asText(const Shader& shader, const session::DrawStop& stop, const se
     ++number;
   }
   text << "\n";
-  for (std::size_t i = 0; i < run.outputs.size(); ++i) {
-    text << "colour output " << i << " at this pixel after the draw: (";
-    for (std::size_t c = 0; c < 4; ++c)
-      text << (c == 0 ? "" : ", ") << profiler::exactText(run.outputs[i][c]);
-    text << ")\n";
+  for (const ThreadRun::Output& output : run.outputs) {
+    text << "colour output " << output.draw_buffer
+         << " at this pixel after the draw: " << session::formatValue(output.value) << "\n";
   }
   return text.str();
 }
@@ -122,12 +120,13 @@ Json asJson(const ThreadRun& run) {
   document["steps"] = std::move(steps);
   document["outcome"] = run.discarded ? "discarded" : "finished";
   Json outputs = Json::array();
-  for (const auto& output : run.outputs) {
-    Json components = Json::array();
-    for (const float value : output) components.push_back(number(session::shortestDouble(value)));
-    outputs.push_back(std::move(components));
+  Json draw_buffers = Json::array();
+  for (const ThreadRun::Output& output : run.outputs) {
+    outputs.push_back(toJson(output.value));
+    draw_buffers.push_back(output.draw_buffer);
   }
   document["outputs"] = std::move(outputs);
+  document["output_draw_buffers"] = std::move(draw_buffers);
   document["check"] = toJson(run.check);
   return document;
 }

@@ -246,8 +246,10 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy,
     }
   }
   if (request.read_outputs) {
-    for (std::size_t i = 0; i < target.colors.size(); ++i) {
+    for (const capture::ColorBuffer& color : target.colors) {
       executed.outputs.push_back(layout.add(pixelBytes(target.width, target.height)));
+      executed.output_draw_buffers.push_back(color.draw_buffer);
+      executed.output_types.push_back(color.format.integer() ? color.format.type : GL_FLOAT);
     }
   }
   executed.storage = layout.add(storage_.words() * 4);
@@ -303,6 +305,8 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
   BulkLayout layout;
   for (int i = 0; request.read_outputs && i < copy.colour_outputs; ++i) {
     executed.outputs.push_back(layout.add(pixelBytes(size, size)));
+    executed.output_draw_buffers.push_back(i);
+    executed.output_types.push_back(GL_FLOAT);
   }
   executed.storage = layout.add(storage_.words() * 4);
   if (!layout.create(bulk)) return noMemory();

@@ -1,0 +1,63 @@
+// Small programs under the debugger that each need special care. Truth: the program's own check of itself
+// (its exit status), and closed forms of what its shader computes.
+#include <gtest/gtest.h>
+
+#include "launch.h"
+
+namespace shadestep::test {
+namespace {
+
+std::string program(const std::string& name) {
+  return binary("programs/" + name);
+}
+
+// The values of a variable's last change in main.
+Json lastValue(const Json& run, const std::string& name) {
+  Json last;
+  for (const Json& step : run["steps"]) {
+    if (step["depth"] == 0 && step["changed"].contains(name)) last = step["changed"][name]["value"];
+  }
+  return last;
+}
+
+TEST(Programs, TheDebugCallbackHearsNothingOfTheAgent) {
+  const Scratch scratch;
+  const Finished run = scratch.shadestep({"run", "--every-draw", "--json"}, {program("debug-callback")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["debugged"], 1);
+}
+
+TEST(Programs, AVertexShaderThatWritesMemoryRunsOnlyOnce) {
+  const Scratch scratch;
+  EXPECT_EQ(scratch.shadestep({"run", "--every-draw"}, {program("vertex-writes")}).status, 0);
+  const Finished refused = scratch.shadestep({"debug", "--pixel", "3,3"}, {program("vertex-writes")});
+  EXPECT_EQ(refused.status, 4);
+  EXPECT_NE(refused.err.find("the vertex shader writes"), std::string::npos) << refused.err;
+}
+
+TEST(Programs, RowsCountFromTheBottomWhateverTheShaderAsksFor) {
+  const Scratch scratch;
+  const Json run = scratch.shadestep({"debug", "--pixel", "5,7", "--json"}, {program("upper-left")}).json();
+  EXPECT_EQ(run["thread"]["visible"], true);
+  EXPECT_EQ(lastValue(run, "p"), Json({5, 56}));
+  EXPECT_EQ(run["outputs"], Json({{5, 56, -5, -56}}));
+  EXPECT_EQ(run["output_draw_buffers"], Json({1}));
+
+  scratch.shadestep({"debug", "--at", "7", "--print", "p", "--csv", "p.csv"}, {program("upper-left")});
+  const auto rows = readCsv(scratch.file("p.csv"));
+  ASSERT_EQ(rows.size(), 64u * 64u);
+  for (const auto& row : rows) {
+    ASSERT_EQ(row[2], row[0]);
+    ASSERT_EQ(std::stoi(row[3]), 63 - std::stoi(row[1]));
+  }
+}
+
+TEST(Programs, OpenGlEsIsFollowedToo) {
+  const Scratch scratch;
+  const Json run = scratch.shadestep({"debug", "--pixel", "5,7", "--json"}, {program("es-target")}).json();
+  EXPECT_EQ(run["check"]["outputs"], "identical");
+  EXPECT_EQ(lastValue(run, "sum"), 0 + 1 + 2 + 3 + 4);
+}
+
+}  // namespace
+}  // namespace shadestep::test
