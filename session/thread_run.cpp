@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "session/probed_run.h"
 #include "session/values.h"
 
 namespace shadestep::session {
@@ -229,12 +230,30 @@ const char* kindName(Step::Kind kind) {
   return "?";
 }
 
+std::vector<ThreadRun::Output> outputsAt(const Execution& execution, int x, int y) {
+  const std::size_t pixel = (static_cast<std::size_t>(y) * static_cast<std::size_t>(execution.width) +
+                             static_cast<std::size_t>(x)) *
+                            4;
+  std::vector<ThreadRun::Output> outputs;
+  for (const ColorOutput& output : execution.outputs) {
+    const auto first = output.words.begin() + static_cast<std::ptrdiff_t>(pixel);
+    outputs.push_back({output.draw_buffer, {output.type, {first, first + 4}}});
+  }
+  return outputs;
+}
+
 ThreadRun followPixel(Session& session, int x, int y, int hit) {
   const DrawFacts& facts = session.facts();
   if (x < 0 || y < 0 || x >= facts.width || y >= facts.height) {
     throw Error(Outcome::nothing_matches, "pixel " + std::to_string(x) + "," + std::to_string(y) +
                                               " is outside the target of " + std::to_string(facts.width) +
                                               " x " + std::to_string(facts.height) + " pixels");
+  }
+  const auto recordable =
+      instrumenter::instrumentRecording(session.shader(Stage::fragment), session.target());
+  if (const auto* failure = std::get_if<instrumenter::Failure>(&recordable)) {
+    if (hit > 0) throw Error(Outcome::cannot_debug, failure->reason);
+    return followPixelByProbes(session, x, y);
   }
   Session::Recorded recorded = session.record(x, y, 1, 1);
   auto& threads = recorded.recording.threads;
@@ -274,14 +293,7 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
   run.visible = thread.invocation == shown;
   run.discarded = thread.discarded;
   run.steps = stepsOf(session.shader(Stage::fragment), recorded.layout, thread);
-  const std::size_t pixel =
-      (static_cast<std::size_t>(y) * static_cast<std::size_t>(recorded.execution.width) +
-       static_cast<std::size_t>(x)) *
-      4;
-  for (const ColorOutput& output : recorded.execution.outputs) {
-    const auto first = output.words.begin() + static_cast<std::ptrdiff_t>(pixel);
-    run.outputs.push_back({output.draw_buffer, {output.type, {first, first + 4}}});
-  }
+  run.outputs = outputsAt(recorded.execution, x, y);
   run.check = recorded.execution.check;
   return run;
 }

@@ -40,6 +40,7 @@ struct ThreadRun {
   int hits = 1;         // fragments on the pixel
   bool visible = true;  // this one is what the pixel shows (so far)
   bool discarded = false;
+  bool complete = true;  // false: there are more steps than were followed
   std::vector<Step> steps;
   struct Output {
     int draw_buffer = 0;  // the location of the shader's output
@@ -51,12 +52,16 @@ struct ThreadRun {
 
 // Records the fragments on a pixel (gl_FragCoord's origin, lower left) and follows one of them: the `hit`-th,
 // or, if hit < 0, the visible one (the last if none is).
-// Throws nothing_matches if no fragment of the draw is there.
+// Throws nothing_matches if no fragment of the draw is there. Where the driver or the shader's dialect has no
+// storage buffers, only the visible fragment can be followed, by one redraw per step (probed_run.h).
 ThreadRun followPixel(Session&, int x, int y, int hit = -1);
 
 // The steps of one recorded thread.
 std::vector<Step> stepsOf(const frontend::Shader&, const instrumenter::RecordingLayout&,
                           const instrumenter::ThreadRecording&);
+
+// What a pixel of the program's own outputs holds after an execution with read_outputs.
+std::vector<ThreadRun::Output> outputsAt(const Execution&, int x, int y);
 
 const char* kindName(Step::Kind);
 

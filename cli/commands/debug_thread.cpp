@@ -52,7 +52,9 @@ std::string whatHappened(const Step& step) {
 }
 
 std::string summary(const ThreadRun& run) {
-  std::string text = run.discarded ? "ended in a discard" : "ran to its end";
+  std::string text = run.discarded   ? "ended in a discard"
+                     : run.complete ? "ran to its end"
+                                    : "not yet at its end (without storage buffers each step costs a redraw)";
   if (run.hits > 1) {
     text += "; fragment " + std::to_string(run.hit) + " of " + std::to_string(run.hits) +
             " on the pixel (--hit)" + (run.visible ? ", the visible one" : ", hidden");
@@ -118,7 +120,7 @@ Json asJson(const ThreadRun& run) {
     steps.push_back(std::move(one));
   }
   document["steps"] = std::move(steps);
-  document["outcome"] = run.discarded ? "discarded" : "finished";
+  document["outcome"] = run.discarded ? "discarded" : run.complete ? "finished" : "not followed to its end";
   Json outputs = Json::array();
   Json draw_buffers = Json::array();
   for (const ThreadRun::Output& output : run.outputs) {

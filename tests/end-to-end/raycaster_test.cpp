@@ -197,6 +197,31 @@ TEST_P(Raycaster, TheImageIsTheSameUnderTheDebugger) {
   EXPECT_TRUE(readFile(scratch.file("stepped.raw")) == expected);
 }
 
+// Without storage buffers a run is followed by one probe per step. It is the same run, but for returned
+// values, which no probe can see.
+TEST(EndToEnd, ARunByProbesIsTheRecordedRun) {
+  for (const char* glsl : {"120", "330"}) {
+    const Scratch scratch;
+    const auto run = [&](const std::string& extensions) {
+      const Finished finished =
+          scratch.run({"env", "MESA_EXTENSION_OVERRIDE=" + extensions, binary("shadestep"), "debug",
+                       "--pixel", "10,14", "--json", "--", binary("raycaster"), "--glsl", glsl, "--size",
+                       "32", "--step", "0.2", "--ert", "0"});
+      Json document = finished.json();
+      for (Json& step : document["steps"]) {
+        if (step["kind"] == "return") step["changed"] = Json::object();
+      }
+      return document;
+    };
+    const Json recorded = run("");
+    const Json probed = run("-GL_ARB_shader_storage_buffer_object");
+    EXPECT_GT(recorded["steps"].size(), 50u);
+    EXPECT_EQ(probed["steps"], recorded["steps"]) << "GLSL " << glsl;
+    EXPECT_EQ(probed["outputs"], recorded["outputs"]);
+    EXPECT_EQ(probed["check"], recorded["check"]);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(EndToEnd, Raycaster,
                          testing::Values(Variant{"osmesa", "120"}, Variant{"osmesa", "330"},
                                          Variant{"egl", "120"}, Variant{"egl", "330"}, Variant{"glx", "120"},

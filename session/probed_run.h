@@ -1,0 +1,13 @@
+// One thread's run without a recording: for drivers and dialects without storage buffers (OpenGL 2, GLSL
+// ES 1.00).
+#pragma once
+
+#include "session/thread_run.h"
+
+namespace shadestep::session {
+
+// Follows the visible fragment on a pixel by one redraw per step (the thesis's way), at most `most_steps` of
+// them; then `complete` is false. Throws nothing_matches if no visible fragment is there.
+ThreadRun followPixelByProbes(Session&, int x, int y, std::size_t most_steps = 500);
+
+}  // namespace shadestep::session
