@@ -1,5 +1,7 @@
 #include "instrumenter/attachments.h"
 
+#include <algorithm>
+
 #include "instrumenter/constructs/fragment_outputs.h"
 #include "instrumenter/helpers/helpers.h"
 #include "instrumenter/words.h"
@@ -43,7 +45,16 @@ bool Attachments::add(const std::string& name, const Type& type) {
   return true;
 }
 
+AttachmentLayout Attachments::overlay() {
+  AttachmentLayout one = layout_;
+  widest_ = std::max(widest_, layout_.words);
+  layout_.fields.clear();
+  layout_.words = 1;
+  return one;
+}
+
 void Attachments::declare() {
+  layout_.words = std::max(layout_.words, widest_);
   const bool floats = layout_.carrier == Carrier::float_attachments;
   const std::string type = draft_.highp() + (floats ? "vec4 " : "uvec4 ");
   if (!floats) prepareWords(draft_);
@@ -64,20 +75,21 @@ void Attachments::declare() {
   if (draft_.es()) locateOnlyOutput(draft_);
 }
 
-std::string Attachments::assign(std::uint32_t mark, const std::vector<std::string>& values) const {
+std::string Attachments::assign(const std::vector<Field>& fields, std::uint32_t mark,
+                                const std::vector<std::string>& values) const {
   std::vector<std::string> words = {markWord(mark)};
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Type& type = layout_.fields[i].type;
+    const Type& type = fields[i].type;
     const std::vector<std::string> more = layout_.carrier == Carrier::float_attachments
                                               ? floatChannels(draft_, values[i], type)
                                               : uintWords(draft_, values[i], type);
     words.insert(words.end(), more.begin(), more.end());
   }
-  return assignWords(words);
+  return assignWords(words, (static_cast<int>(words.size()) + 3) / 4);
 }
 
 std::string Attachments::clear(std::uint32_t mark) const {
-  return assignWords({markWord(mark)});
+  return assignWords({markWord(mark)}, layout_.attachments());
 }
 
 std::string Attachments::write() const {
@@ -90,10 +102,10 @@ std::string Attachments::write() const {
   return frag_data_ ? text + broadcastFragColor(draft_.shader(), used_draw_buffers_) : text;
 }
 
-std::string Attachments::assignWords(const std::vector<std::string>& words) const {
+std::string Attachments::assignWords(const std::vector<std::string>& words, int attachments) const {
   const bool floats = layout_.carrier == Carrier::float_attachments;
   std::string text;
-  for (int i = 0; i < layout_.attachments(); ++i) {
+  for (int i = 0; i < attachments; ++i) {
     if (i > 0) text += ", ";
     text += buffer(i) + (floats ? " = vec4(" : " = uvec4(");
     for (std::size_t channel = 0; channel < 4; ++channel) {

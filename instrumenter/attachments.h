@@ -23,19 +23,26 @@ class Attachments {
 
   // Makes room for a value; false if the draw buffers do not hold it.
   bool add(const std::string& name, const frontend::Type& type);
-  // Declares what the layout so far needs. To be called once, after the last `add`.
+  // Ends the fields of one probe and hands out their layout; what is added next goes over the same words.
+  AttachmentLayout overlay();
+  // Declares what the layouts so far need. To be called once, after the last `add`.
   void declare();
 
   // GLSL expressions (comma-separated assignments). `values`: one expression per added field, in order.
-  std::string assign(std::uint32_t mark, const std::vector<std::string>& values) const;
+  std::string assign(std::uint32_t mark, const std::vector<std::string>& values) const {
+    return assign(layout_.fields, mark, values);
+  }
+  std::string assign(const std::vector<Field>& fields, std::uint32_t mark,
+                     const std::vector<std::string>& values) const;
   std::string clear(std::uint32_t mark) const;
   // GLSL statements that write the buffered words to the outputs.
   std::string write() const;
 
+  // With overlays: the words of the widest, and the fields of none.
   const AttachmentLayout& layout() const { return layout_; }
 
  private:
-  std::string assignWords(const std::vector<std::string>& words) const;
+  std::string assignWords(const std::vector<std::string>& words, int attachments) const;
   std::string markWord(std::uint32_t mark) const;
   std::string buffer(int index) const { return draft_.name("words" + std::to_string(index)); }
 
@@ -44,6 +51,7 @@ class Attachments {
   AttachmentLayout layout_;
   bool frag_data_ = false;
   int capacity_ = 0;  // words
+  int widest_ = 1;    // of the overlays so far
   int used_draw_buffers_ = 1;
 };
 

@@ -20,19 +20,10 @@ std::uint32_t wholeNumber(std::uint32_t float_bits) {
   return value >= 0.0F && value <= 65535.0F ? static_cast<std::uint32_t>(value + 0.5F) : 0;
 }
 
-std::vector<std::uint32_t> wordsFromChannels(const Type& type, const std::uint32_t* channels) {
-  std::vector<std::uint32_t> words;
-  for (const Component& component : frontend::components(type)) {
-    if (component.basic == Basic::float_) {
-      words.push_back(*channels++);
-      continue;
-    }
-    Type scalar;
-    scalar.basic = component.basic;
-    for (int word = frontend::wordCount(scalar); word > 0; --word, channels += 2)
-      words.push_back(wholeNumber(channels[0]) | wholeNumber(channels[1]) << 16);
-  }
-  return words;
+int wordsOf(Basic basic) {
+  Type scalar;
+  scalar.basic = basic;
+  return frontend::wordCount(scalar);
 }
 
 enum Mark : std::uint32_t { running = 0, finished = 1, discarded = 2 };
@@ -104,9 +95,26 @@ Recording refused(const std::string& reason) {
 }  // namespace
 
 Value decode(const AttachmentLayout& layout, const Field& field, const std::uint32_t* words) {
-  const std::uint32_t* first = words + field.first_word;
-  if (layout.carrier == Carrier::float_attachments) return {field.type, wordsFromChannels(field.type, first)};
-  return {field.type, {first, first + frontend::wordCount(field.type)}};
+  Value value{field.type, std::vector<std::uint32_t>(static_cast<std::size_t>(wordCount(field.type)))};
+  decodeInto(layout, field, frontend::components(field.type), words, value.words.data());
+  return value;
+}
+
+void decodeInto(const AttachmentLayout& layout, const Field& field, const std::vector<Component>& components,
+                const std::uint32_t* words, std::uint32_t* out) {
+  const std::uint32_t* channel = words + field.first_word;
+  if (layout.carrier != Carrier::float_attachments) {
+    std::copy_n(channel, wordCount(field.type), out);
+    return;
+  }
+  for (const Component& component : components) {
+    if (component.basic == Basic::float_) {
+      *out++ = *channel++;
+      continue;
+    }
+    for (int word = wordsOf(component.basic); word > 0; --word, channel += 2)
+      *out++ = wholeNumber(channel[0]) | wholeNumber(channel[1]) << 16;
+  }
 }
 
 std::uint32_t decodeMark(const AttachmentLayout& layout, const std::uint32_t* words) {

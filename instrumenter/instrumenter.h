@@ -138,6 +138,27 @@ std::vector<frontend::StatementId> numberedLoops(const frontend::Shader&, const 
 // there are more than the draw buffers hold: `layout.fields` says which; ask again with the rest.
 Result<AttachmentShader> instrumentSingle(const frontend::Shader&, const Probe&, const Target&);
 
+// ---- window: several probes, one text ----------------------------------------------------------------------
+
+// The probes of one text are chosen by a uniform, and the iterations that each means are uniforms too: another
+// step, or another iteration, costs a draw and no compilation. The words of all probes lie over each other.
+struct WindowLayout {
+  AttachmentLayout capture;              // of the text: carrier, outputs, words of the widest probe; no fields
+  std::vector<AttachmentLayout> probes;  // as `capture`, with the words and the fields of each probe
+  std::string probe_uniform;             // int: index of the probe; one that is not there captures nothing
+  // int each: Probe::iterations[i] of the chosen probe. Those beyond its own count for nothing.
+  std::vector<std::string> iteration_uniforms;
+};
+struct WindowShader {
+  std::string text;
+  WindowLayout layout;
+};
+
+// How many iterations each probe has says how many of its loops are numbered; their values do not matter here.
+// Fails if the words of one probe do not fit: make its watches fewer. Fails also if a probe that takes any call
+// of a function meets one that tells the calls of this function apart: one text cannot hold both.
+Result<WindowShader> instrumentWindow(const frontend::Shader&, const std::vector<Probe>&, const Target&);
+
 // ---- recording: every step of chosen threads ---------------------------------------------------------------
 
 Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Target&);
@@ -190,6 +211,10 @@ struct Value {
 // `words`: the thread's words (layout.words of them), as read from the attachments (float attachments: the
 // floats' bits).
 Value decode(const AttachmentLayout&, const Field&, const std::uint32_t* words);
+// The same without making anything: writes frontend::wordCount(field.type) words to `out`. `components` are those
+// of the field's type, asked for once.
+void decodeInto(const AttachmentLayout&, const Field&, const std::vector<frontend::Component>& components,
+                const std::uint32_t* words, std::uint32_t* out);
 // The mark word of a thread under any carrier.
 std::uint32_t decodeMark(const AttachmentLayout&, const std::uint32_t* words);
 

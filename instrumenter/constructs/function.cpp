@@ -1,5 +1,7 @@
 #include "instrumenter/constructs/function.h"
 
+#include <algorithm>
+
 #include "instrumenter/constructs/statement.h"
 
 namespace shadestep::instrumenter {
@@ -25,21 +27,31 @@ TokenIndex nameInPrototype(const Shader& shader, const Function& function, Token
   return frontend::kNone;
 }
 
-CallPath::CallPath(Draft& draft, const std::vector<CallId>& path) : draft_(draft) {
+CallPaths::CallPaths(Draft& draft, const std::vector<Path>& paths) : draft_(draft) {
   const Shader& shader = draft.shader();
-  for (std::size_t depth = 0; depth < path.size(); ++depth) {
-    const Call& call = shader.calls[static_cast<std::size_t>(path[depth])];
-    Copy copy{call.callee, draft.name("f" + std::to_string(depth)), draft.edits.replacements()};
-    copy.edits.replace(functionAt(shader, call.callee).name_token, copy.name);
-    copies_.push_back(std::move(copy));
+  for (const Path& path : paths) {
+    for (std::size_t depth = 1; depth <= path.size(); ++depth) {
+      const Call& call = shader.calls[static_cast<std::size_t>(path[depth - 1])];
+      Copy copy{call.callee, draft.name("f" + std::to_string(copies_.size())), draft.edits.replacements()};
+      copies_.try_emplace(Path(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(depth)),
+                          std::move(copy));
+    }
   }
-  for (std::size_t depth = 0; depth < path.size(); ++depth)
-    edits(depth).replace(shader.calls[static_cast<std::size_t>(path[depth])].name, copies_[depth].name);
+  for (auto& [path, copy] : copies_) {
+    copy.edits.replace(functionAt(shader, copy.function).name_token, copy.name);
+    const Call& call = shader.calls[static_cast<std::size_t>(path.back())];
+    edits(Path(path.begin(), path.end() - 1)).replace(call.name, copy.name);
+  }
 }
 
-std::optional<Failure> CallPath::insertCopies() {
+bool CallPaths::copied(FunctionId function) const {
+  return std::any_of(copies_.begin(), copies_.end(),
+                     [function](const auto& copy) { return copy.second.function == function; });
+}
+
+std::optional<Failure> CallPaths::insertCopies() {
   const Shader& shader = draft_.shader();
-  for (Copy& copy : copies_) {
+  for (const auto& [path, copy] : copies_) {
     const Function& function = functionAt(shader, copy.function);
     const TokenRange definition{function.header.first, statementAt(shader, function.body).tokens.last};
     auto text = copy.edits.apply(definition);

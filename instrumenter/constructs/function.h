@@ -9,7 +9,7 @@
 // recursion (GLSL has none).
 #pragma once
 
-#include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,16 +23,21 @@ const frontend::Function& functionAt(const frontend::Shader&, frontend::Function
 frontend::TokenIndex nameInPrototype(const frontend::Shader&, const frontend::Function&,
                                      frontend::TokenRange);
 
-// The functions along a call path, each with the edits to make in its text.
-class CallPath {
+// The functions along call paths, each with the edits to make in its text. Paths that begin alike share the
+// copies along their common part.
+class CallPaths {
  public:
-  // Registers the renamed calls. The replacements of draft.edits hold in the copies as well, if they were
-  // registered before. Assumes a path that `brokenPath` finds nothing wrong with.
-  CallPath(Draft& draft, const std::vector<frontend::CallId>& path);
+  using Path = std::vector<frontend::CallId>;
 
-  // Edits of the function in which call number `depth` of the path stands; with depth == size of the path, of
-  // the innermost function.
-  Edits& edits(std::size_t depth) { return depth == 0 ? draft_.edits : copies_[depth - 1].edits; }
+  // Registers the renamed calls. The replacements of draft.edits hold in the copies as well, if they were
+  // registered before. Assumes paths that `brokenPath` finds nothing wrong with.
+  CallPaths(Draft& draft, const std::vector<Path>& paths);
+
+  // Edits of the function that the calls of a path, or of its first part, lead into.
+  Edits& edits(const Path& path) { return path.empty() ? draft_.edits : copies_.at(path).edits; }
+
+  // Is there a copy of this function?
+  bool copied(frontend::FunctionId) const;
 
   // Inserts the copies with their edits; call it when these are complete.
   std::optional<Failure> insertCopies();
@@ -44,7 +49,7 @@ class CallPath {
     Edits edits;
   };
   Draft& draft_;
-  std::deque<Copy> copies_;
+  std::map<Path, Copy> copies_;  // by the calls that lead into them
 };
 
 // What is wrong with a path that shall lead into `function`; empty if nothing is.
