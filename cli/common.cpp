@@ -137,16 +137,19 @@ Json toJson(const session::Check& check) {
   json["compared"] = check.compared;
   json["differing"] = check.differing;
   json["reason"] = check.reason.empty() ? Json(nullptr) : Json(check.reason);
+  json["left_out"] = check.left_out.empty() ? Json(nullptr) : Json(check.left_out);
   return json;
 }
 
 std::string describe(const session::Check& check) {
-  if (!check.compared_at_all) return "outputs not compared: " + check.reason;
+  const std::string left_out = check.left_out.empty() ? "" : "\nnote: " + check.left_out;
+  if (!check.compared_at_all) return "outputs not compared: " + check.reason + left_out;
   if (check.identical()) {
-    return "outputs identical to the uninstrumented draw (" + withThousands(check.compared) + " components)";
+    return "outputs identical to the uninstrumented draw (" + withThousands(check.compared) + " components)" +
+           left_out;
   }
   return "OUTPUTS DIFFER from the uninstrumented draw in " + withThousands(check.differing) + " of " +
-         withThousands(check.compared) + " components: do not trust these values";
+         withThousands(check.compared) + " components: do not trust these values" + left_out;
 }
 
 Json number(double value) {

@@ -585,6 +585,10 @@ Captured Session::capture(const instrumenter::AttachmentShader& instrumented, co
   captured.execution = execute(prepared, options);
   captured.threads = joinAttachments(captured.execution, instrumented.layout.words);
   captured.execution.attachments.clear();
+  if (shader(Stage::fragment).traits.uses_discard) {
+    captured.execution.check.left_out =
+        "threads that end in a discard write nothing and are left out; 'debug --pixel' follows them";
+  }
   return captured;
 }
 

@@ -74,7 +74,8 @@ struct Check {
   bool compared_at_all = false;
   std::uint64_t compared = 0;  // components
   std::uint64_t differing = 0;
-  std::string reason;  // why not compared
+  std::string reason;    // why not compared
+  std::string left_out;  // which threads of the draw the values do not cover ("" = none), for the user
   bool identical() const { return compared_at_all && differing == 0; }
   // "identical", "differs", "not compared"
   void merge(const Check& other);  // the check of two passes together; a fresh one takes the other over

@@ -52,6 +52,22 @@ TEST(Programs, RowsCountFromTheBottomWhateverTheShaderAsksFor) {
   }
 }
 
+TEST(Programs, DiscardedThreadsAreFollowedAndSaidToBeLeftOutElsewhere) {
+  const Scratch scratch;
+  const Json run = scratch.shadestep({"debug", "--pixel", "5,7", "--json"}, {program("discard")}).json();
+  EXPECT_EQ(run["outcome"], "discarded");
+  EXPECT_EQ(lastValue(run, "column"), 5.0);
+  EXPECT_TRUE(run["check"]["left_out"].is_null());
+
+  // All 4,096 threads get to line 11; what is shown of them must not pass for all.
+  const Finished all =
+      scratch.shadestep({"debug", "--at", "11", "--print", "column", "--json"}, {program("discard")});
+  EXPECT_EQ(all.json()["threads"]["launched"], 64 * 32);
+  EXPECT_NE(all.json()["check"]["left_out"].dump().find("discard"), std::string::npos);
+  EXPECT_TRUE(
+      scratch.shadestep({"loops", "--json"}, {program("discard")}).json()["check"]["left_out"].is_string());
+}
+
 TEST(Programs, OpenGlEsIsFollowedToo) {
   const Scratch scratch;
   const Json run = scratch.shadestep({"debug", "--pixel", "5,7", "--json"}, {program("es-target")}).json();
