@@ -363,37 +363,10 @@ const frontend::Shader& Session::shader(Stage stage) {
               "the draw's program has no " + std::string(stageName(stage)) + " shader; it has: " + present);
 }
 
-namespace {
-
-// Whether a shader could write to memory, seen from its words alone: the others need no analysis.
-bool mayWriteMemory(const StageFacts& stage) {
-  const auto mentions = [](const std::string& text) {
-    return text.find("buffer") != std::string::npos || text.find("image") != std::string::npos ||
-           text.find("atomic") != std::string::npos;
-  };
-  return std::any_of(stage.sources.begin(), stage.sources.end(), mentions);
-}
-
-}  // namespace
-
 void Session::requireCapturable() {
-  const frontend::Shader& fragment = shader(Stage::fragment);
+  shader(Stage::fragment);  // throws if it cannot be analysed
   const DrawFacts& draw = facts();
   if (!draw.target_reason.empty()) throw Error(Outcome::cannot_debug, draw.target_reason);
-  if (fragment.traits.writes_memory) {
-    throw Error(Outcome::cannot_debug,
-                "the fragment shader writes to images, storage buffers or atomic counters; this "
-                "version of shadestep cannot put them back after a replay");
-  }
-  for (const StageFacts& stage : draw.stages) {
-    if (stage.stage == Stage::fragment || !mayWriteMemory(stage)) continue;
-    if (shader(stage.stage).traits.writes_memory) {
-      throw Error(Outcome::cannot_debug,
-                  "the " + std::string(stageName(stage.stage)) +
-                      " shader writes to images, storage buffers or atomic counters; this version of "
-                      "shadestep cannot put them back after a replay");
-    }
-  }
 }
 
 instrumenter::Target Session::target() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/replay/writable.h"
 
 namespace shadestep::agent {
 namespace {
@@ -209,20 +210,24 @@ OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::Sh
   const guard::FramebufferGuard framebuffers(facts().context);
   std::optional<guard::StorageBindingGuard> storage;
   if (wants_storage) storage.emplace(std::max(copy.storage_binding, 0));
-  return copy.covering ? cover(copy, request, bulk) : replay(copy, framebuffers, request, bulk);
+  if (Refusal refusal = saveMemory(copy); !refusal.text.empty()) return refusal;
+  const guard::MemoryGuard memory(*memory_);
+  return copy.covering ? cover(copy, request, bulk) : replay(copy, program, framebuffers, request, bulk);
 }
 
-// Every repeat starts from the program's own target contents, zeroed captures and a fresh storage buffer: all
-// repeats, and the program's own draw afterwards, see the same. None of that is in the measured time.
-OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy,
+// Every repeat starts from the program's own target contents and memory, zeroed captures and a fresh storage
+// buffer: all repeats, and the program's own draw afterwards, see the same. None of that is in the measured
+// time.
+OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const guard::ProgramGuard& program,
                                         const guard::FramebufferGuard& framebuffers,
                                         const wire::ExecuteT& request, wire::SharedMemory& bulk) {
   const guard::ContextFacts& context = facts().context;
   const capture::DrawTarget& target = facts().target;
   if (Refusal refusal = captureObstacle(context, copy.captures); !refusal.text.empty()) return refusal;
   if (shadow_ == nullptr) shadow_ = std::make_unique<capture::Shadow>(context, target);
-  if (request.compare) {
-    if (Refusal refusal = drawReference(framebuffers); !refusal.text.empty()) return refusal;
+  if (request.compare && !check_->hasReference()) {
+    if (Refusal refusal = drawOriginal(framebuffers); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = check_->keepReference(*shadow_, *memory_); !refusal.text.empty()) return refusal;
   }
 
   wire::ExecutedT executed;
@@ -233,6 +238,7 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy,
     if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
     for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
       if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
+      memory_->restore();
       if (Refusal refusal = shadow_->fill(framebuffers, copy.captures); !refusal.text.empty()) return refusal;
       executed.times_ns.push_back(timed([&] { call_.replay(call_.arguments); }));
     }
@@ -255,16 +261,23 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy,
   executed.storage = layout.add(storage_.words() * 4);
   if (!layout.create(bulk)) return noMemory();
 
-  const guard::PixelReadGuard reading(context);
-  for (std::size_t i = 0; i < executed.attachments.size(); ++i) {
-    shadow_->readCapture(copy.captures[i], bulk.data() + executed.attachments[i]->offset);
-  }
-  for (std::size_t i = 0; i < executed.outputs.size(); ++i) {
-    shadow_->readOutput(target.colors[i], bulk.data() + executed.outputs[i]->offset);
+  {
+    const guard::PixelReadGuard reading(context);
+    for (std::size_t i = 0; i < executed.attachments.size(); ++i) {
+      shadow_->readCapture(copy.captures[i], bulk.data() + executed.attachments[i]->offset);
+    }
+    for (std::size_t i = 0; i < executed.outputs.size(); ++i) {
+      shadow_->readOutput(target.colors[i], bulk.data() + executed.outputs[i]->offset);
+    }
   }
   if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
   if (request.compare) {
-    if (Refusal refusal = compareWithReference(executed); !refusal.text.empty()) return refusal;
+    const auto draw_again = [&] {
+      program.makeCurrent();
+      return drawOriginal(framebuffers);
+    };
+    if (Refusal refusal = check_->compare(*shadow_, *memory_, draw_again, executed); !refusal.text.empty())
+      return refusal;
   } else {
     executed.compare_reason = "not asked for";
   }
@@ -272,7 +285,8 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy,
   return executed;
 }
 
-// The triangle covers the target whole and unblended: repeats need nothing in between.
+// The triangle covers the target whole and unblended: repeats need nothing in between but the program's
+// memory.
 OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wire::ExecuteT& request,
                                        wire::SharedMemory& bulk) {
   const guard::ContextFacts& context = facts().context;
@@ -297,6 +311,7 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
     if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
     if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
     for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
+      memory_->restore();
       executed.times_ns.push_back(timed([&] { covering_.draw(); }));
     }
     if (guard::clearErrors()) return guard::internal("the driver answers the covering draw with an error");
@@ -318,29 +333,30 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
   return executed;
 }
 
-// What the program's own program draws, once a stop. The program is current.
-Refusal Stop::drawReference(const guard::FramebufferGuard& framebuffers) {
-  if (reference_) return {};
+// Whatever the program's own shaders or their copies can write. A dead block of the original may be alive in
+// a copy, so that there is more to save, and to compare, than before.
+Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
+  const guard::ContextFacts& context = facts().context;
+  if (!memory_) {
+    memory_.emplace(context);
+    check_.emplace(context);
+    const guard::WritableBindings own = replay::writableBindings(context, facts().program);
+    if (Refusal refusal = memory_->save(own); !refusal.text.empty()) return refusal;
+  }
+  guard::WritableBindings bindings = replay::writableBindings(context, copy.program);
+  if (copy.storage_binding >= 0) bindings.storage.erase(static_cast<GLuint>(copy.storage_binding));
+  const std::size_t before = memory_->sections().size();
+  Refusal refusal = memory_->save(bindings);
+  if (memory_->sections().size() != before) check_->dropReference();
+  return refusal;
+}
+
+// What the program's own program draws, into the shadow. The program is current.
+Refusal Stop::drawOriginal(const guard::FramebufferGuard& framebuffers) {
+  memory_->restore();
   if (Refusal refusal = shadow_->fill(framebuffers, {}); !refusal.text.empty()) return refusal;
   call_.replay(call_.arguments);
   if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
-  auto reference =
-      wire::SharedMemory::create("shadestep-reference", std::max<std::size_t>(shadow_->originalsBytes(), 1));
-  if (!reference) return noMemory();
-  const guard::PixelReadGuard reading(facts().context);
-  shadow_->readOriginals(reference.data());
-  reference_ = std::move(reference);
-  return {};
-}
-
-Refusal Stop::compareWithReference(wire::ExecutedT& executed) const {
-  const auto drawn = wire::SharedMemory::create("shadestep-outputs", reference_.size());
-  if (!drawn) return noMemory();
-  shadow_->readOriginals(drawn.data());
-  const capture::Shadow::Difference difference = shadow_->compare(reference_.data(), drawn.data());
-  executed.compared = difference.compared;
-  executed.differing = difference.differing;
-  if (difference.compared == 0) executed.compare_reason = "the draw writes to no buffer";
   return {};
 }
 

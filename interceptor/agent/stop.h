@@ -8,12 +8,14 @@
 #include <memory>
 #include <optional>
 
+#include "interceptor/agent/check.h"
 #include "interceptor/agent/describe.h"
 #include "interceptor/capture/covering.h"
 #include "interceptor/capture/shadow.h"
 #include "interceptor/capture/storage.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/guard/guards.h"
+#include "interceptor/guard/memory.h"
 #include "interceptor/guard/refusal.h"
 #include "interceptor/replay/program_copy.h"
 #include "wire/channel.h"
@@ -37,12 +39,13 @@ class Stop {
  private:
   guard::OrRefusal<wire::PreparedT> prepare(const wire::PrepareT&);
   guard::OrRefusal<wire::ExecutedT> execute(const wire::ExecuteT&, wire::SharedMemory& bulk);
-  guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy&, const guard::FramebufferGuard&,
-                                           const wire::ExecuteT&, wire::SharedMemory& bulk);
+  guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy&, const guard::ProgramGuard&,
+                                           const guard::FramebufferGuard&, const wire::ExecuteT&,
+                                           wire::SharedMemory& bulk);
   guard::OrRefusal<wire::ExecutedT> cover(const replay::ProgramCopy&, const wire::ExecuteT&,
                                           wire::SharedMemory& bulk);
-  guard::Refusal drawReference(const guard::FramebufferGuard&);
-  guard::Refusal compareWithReference(wire::ExecutedT&) const;
+  guard::Refusal saveMemory(const replay::ProgramCopy&);
+  guard::Refusal drawOriginal(const guard::FramebufferGuard&);
   guard::Refusal resetStorage(const replay::ProgramCopy&, const wire::ExecuteT&);
   const DrawFacts& facts();
 
@@ -50,7 +53,8 @@ class Stop {
   guard::ErrorGuard errors_;
   std::optional<DrawFacts> facts_;
   std::unique_ptr<capture::Shadow> shadow_;
-  wire::SharedMemory reference_;  // the original outputs of the program's own program
+  std::optional<guard::WritableMemory> memory_;
+  std::optional<Check> check_;
   capture::Covering covering_;
   capture::StorageBuffer storage_;
   replay::ShaderCache shaders_;

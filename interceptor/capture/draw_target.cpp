@@ -8,6 +8,7 @@
 #include "interceptor/capture/drawable_size.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/texture_level.h"
 
 namespace shadestep::capture {
 namespace {
@@ -123,42 +124,6 @@ Size renderbufferSize(GLuint renderbuffer) {
   return size;
 }
 
-struct TextureTarget {
-  GLenum target, binding, image;  // image: 0 = a face of a cube map
-};
-constexpr std::array kTextureTargets = {
-    TextureTarget{GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D, GL_TEXTURE_2D},
-    TextureTarget{GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE, GL_TEXTURE_RECTANGLE},
-    TextureTarget{GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D, GL_TEXTURE_3D},
-    TextureTarget{GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_2D_ARRAY},
-    TextureTarget{GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP, 0},
-    TextureTarget{GL_TEXTURE_1D, GL_TEXTURE_BINDING_1D, GL_TEXTURE_1D},
-    TextureTarget{GL_TEXTURE_1D_ARRAY, GL_TEXTURE_BINDING_1D_ARRAY, GL_TEXTURE_1D_ARRAY},
-    TextureTarget{GL_TEXTURE_CUBE_MAP_ARRAY, GL_TEXTURE_BINDING_CUBE_MAP_ARRAY, GL_TEXTURE_CUBE_MAP_ARRAY},
-    TextureTarget{GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE, GL_TEXTURE_2D_MULTISAMPLE},
-};
-
-// A texture keeps the target that it was first bound to, and binding it to another is an error without
-// effect: the target is found by trying. (Asking for it needs OpenGL 4.5.)
-Size textureSize(GLuint texture, GLint level, GLint face) {
-  guard::clearErrors();
-  for (const TextureTarget& entry : kTextureTargets) {
-    GLint before = 0;
-    gl().GetIntegerv(entry.binding, &before);
-    if (guard::clearErrors()) continue;  // this context has no such target
-    gl().BindTexture(entry.target, texture);
-    if (guard::clearErrors()) continue;
-    Size size;
-    const GLenum image = entry.image != 0 ? entry.image : static_cast<GLenum>(face);
-    gl().GetTexLevelParameteriv(image, level, GL_TEXTURE_WIDTH, &size.width);
-    gl().GetTexLevelParameteriv(image, level, GL_TEXTURE_HEIGHT, &size.height);
-    gl().BindTexture(entry.target, static_cast<GLuint>(before));
-    if (entry.target == GL_TEXTURE_1D_ARRAY) size.height = 1;
-    return size;
-  }
-  return {};
-}
-
 // Takes one attachment of the program's framebuffer into account: framebuffers draw to what all attachments
 // cover.
 void addAttachment(DrawTarget& target, GLenum attachment) {
@@ -175,8 +140,8 @@ void addAttachment(DrawTarget& target, GLenum attachment) {
                                              GL_FRAMEBUFFER_ATTACHMENT_LAYERED, &layered);
     guard::clearErrors();  // before OpenGL 3.2 nothing is layered, and asking is an error
     if (layered) target.reason = "the draw goes to a layered framebuffer, which cannot be captured yet";
-    size = textureSize(name, ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL),
-                       ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE));
+    const guard::TextureLevel level = guard::textureLevel(name, ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL));
+    size = {level.width, level.height};
   }
   if (size.width <= 0 || size.height <= 0) {
     target.reason = "the size of an attachment of the program's framebuffer cannot be found out";

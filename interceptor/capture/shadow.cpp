@@ -3,7 +3,6 @@
 #include "interceptor/capture/shadow.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
@@ -38,17 +37,6 @@ void storeUpsideDown(const guard::ContextFacts& facts) {
   } else {
     gl().FramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_FLIP_Y_MESA, GL_TRUE);
   }
-}
-
-// Counts the words (or bytes) that differ, a component each.
-template <class Word>
-std::uint64_t differing(const std::byte* a, const std::byte* b, std::size_t words) {
-  if (std::memcmp(a, b, words * sizeof(Word)) == 0) return 0;
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < words; ++i) {
-    count += std::memcmp(a + i * sizeof(Word), b + i * sizeof(Word), sizeof(Word)) != 0;
-  }
-  return count;
 }
 
 }  // namespace
@@ -206,12 +194,17 @@ void Shadow::readOutput(const ColorBuffer& color, void* words) const {
   for (std::size_t i = pixels() * 4; i-- > 0;) floats[i] = static_cast<float>(bytes[i]) / 255.0F;
 }
 
-std::size_t Shadow::originalsBytes() const {
-  std::size_t bytes = target_.colors.size() * pixels() * 16;
-  if (facts_.es) return bytes;
-  if (target_.depth_stencil.depth_bits > 0) bytes += pixels() * 4;
-  if (target_.depth_stencil.stencil_bits > 0) bytes += pixels();
-  return bytes;
+std::vector<guard::Section> Shadow::sections() const {
+  std::vector<guard::Section> result;
+  for (const ColorBuffer& color : target_.colors) {
+    // Components that the format lacks read as constants: they never differ, and are not counted.
+    result.push_back({"draw buffer " + std::to_string(color.draw_buffer), pixels() * 16, 4,
+                      pixels() * static_cast<std::size_t>(color.format.components())});
+  }
+  if (facts_.es) return result;
+  if (target_.depth_stencil.depth_bits > 0) result.push_back({"the depth buffer", pixels() * 4, 4, pixels()});
+  if (target_.depth_stencil.stencil_bits > 0) result.push_back({"the stencil buffer", pixels(), 1, pixels()});
+  return result;
 }
 
 void Shadow::readOriginals(std::byte* destination) const {
@@ -229,31 +222,6 @@ void Shadow::readOriginals(std::byte* destination) const {
   if (target_.depth_stencil.stencil_bits > 0) {
     gl().ReadPixels(0, 0, target_.width, target_.height, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, destination);
   }
-}
-
-Shadow::Difference Shadow::compare(const std::byte* reference, const std::byte* instrumented) const {
-  Difference total;
-  const auto advance = [&](std::size_t bytes) {
-    reference += bytes;
-    instrumented += bytes;
-  };
-  for (const ColorBuffer& color : target_.colors) {
-    // Components that the format lacks read as constants: they never differ, and are not counted.
-    total.compared += pixels() * static_cast<std::size_t>(color.format.components());
-    total.differing += differing<std::uint32_t>(reference, instrumented, pixels() * 4);
-    advance(pixels() * 16);
-  }
-  if (facts_.es) return total;
-  if (target_.depth_stencil.depth_bits > 0) {
-    total.compared += pixels();
-    total.differing += differing<std::uint32_t>(reference, instrumented, pixels());
-    advance(pixels() * 4);
-  }
-  if (target_.depth_stencil.stencil_bits > 0) {
-    total.compared += pixels();
-    total.differing += differing<std::uint8_t>(reference, instrumented, pixels());
-  }
-  return total;
 }
 
 }  // namespace shadestep::capture

@@ -9,6 +9,7 @@
 #include "interceptor/capture/draw_target.h"
 #include "interceptor/guard/guards.h"
 #include "interceptor/guard/refusal.h"
+#include "interceptor/guard/section.h"
 #include "interceptor/registry/gl_enums.h"
 #include "interceptor/registry/gl_types.h"
 #include "wire/messages_generated.h"
@@ -40,12 +41,8 @@ class Shadow {
 
   // All original outputs in a form that keeps every bit: colours as readOutput, then depth (a word a pixel),
   // then stencil (a byte a pixel). OpenGL ES cannot read depth and stencil.
-  std::size_t originalsBytes() const;
+  std::vector<guard::Section> sections() const;
   void readOriginals(std::byte* destination) const;
-  struct Difference {
-    std::uint64_t compared = 0, differing = 0;  // components
-  };
-  Difference compare(const std::byte* reference, const std::byte* instrumented) const;
 
  private:
   bool build();

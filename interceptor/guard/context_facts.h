@@ -33,6 +33,8 @@ struct ContextFacts {
     return atLeast(43, 31) ||
            (has("GL_ARB_shader_storage_buffer_object") && has("GL_ARB_program_interface_query"));
   }
+  bool interfaceQueries() const { return atLeast(43, 31) || has("GL_ARB_program_interface_query"); }
+  bool copiesImages() const { return atLeast(43, 32) || has("GL_ARB_copy_image"); }
   bool pausesTransformFeedback() const { return atLeast(40, 30) || has("GL_ARB_transform_feedback2"); }
   bool subroutines() const { return atLeast(40, 0) || has("GL_ARB_shader_subroutine"); }
   bool vertexArrays() const { return atLeast(30, 30) || has("GL_ARB_vertex_array_object"); }

@@ -112,11 +112,15 @@ ProgramGuard::ProgramGuard(const ContextFacts& facts) : program_(binding(GL_CURR
 }
 
 ProgramGuard::~ProgramGuard() {
+  makeCurrent();
+  if (paused_) gl().ResumeTransformFeedback();
+}
+
+void ProgramGuard::makeCurrent() const {
   gl().UseProgram(program_);
   for (const StageSubroutines& saved : subroutines_) {
     gl().UniformSubroutinesuiv(saved.stage, static_cast<GLsizei>(saved.indices.size()), saved.indices.data());
   }
-  if (paused_) gl().ResumeTransformFeedback();
 }
 
 // ---- reading pixels

@@ -53,7 +53,8 @@ class ProgramGuard {
  public:
   explicit ProgramGuard(const ContextFacts&);
   ~ProgramGuard();
-  GLuint program() const { return program_; }
+  // Makes the program and its subroutine selection current again, while the guard still lives.
+  void makeCurrent() const;
 
  private:
   struct StageSubroutines {

@@ -7,6 +7,7 @@
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/texture_level.h"
 
 namespace shadestep::replay {
 namespace {
@@ -76,10 +77,6 @@ const UniformType& uniformType(GLenum type) {
     if (known.type == type) return known;
   }
   return kOpaque;
-}
-
-bool isImage(GLenum type) {
-  return type >= GL_IMAGE_1D && type <= GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY;
 }
 
 using Words = std::array<std::uint32_t, 32>;  // the largest: dmat4
@@ -188,8 +185,8 @@ std::string copyDefaultBlock(const guard::ContextFacts& facts, GLuint original, 
       const std::string name = elementName(uniform, element);
       const GLint from = gl().GetUniformLocation(original, name.c_str());
       const GLint to = gl().GetUniformLocation(copy, name.c_str());
-      if (from < 0 || to < 0) continue;                 // built-in, in a block, or not alive in the original
-      if (facts.es && isImage(uniform.type)) continue;  // ES: fixed by the shader's text
+      if (from < 0 || to < 0) continue;  // built-in, in a block, or not alive in the original
+      if (facts.es && guard::isImageType(uniform.type)) continue;  // ES: fixed by the shader's text
       for (const GLenum type : kSixtyFourBits) {
         if (type == uniform.type)
           return "the uniform " + uniform.name +
@@ -262,6 +259,26 @@ std::string setUniforms(GLuint program, const std::vector<std::unique_ptr<wire::
     set(type, location, static_cast<GLsizei>(value->words.size() / words), value->words.data());
   }
   return "";
+}
+
+std::set<GLuint> imageUnits(GLuint program) {
+  std::set<GLuint> units;
+  GLint count = 0;
+  GLint longest = 0;
+  gl().GetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+  gl().GetProgramiv(program, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+  std::vector<GLchar> buffer(static_cast<std::size_t>(longest) + 1);
+  for (GLint i = 0; i < count; ++i) {
+    const ActiveUniform uniform = activeUniform(program, static_cast<GLuint>(i), buffer);
+    if (!guard::isImageType(uniform.type)) continue;
+    for (GLint element = 0; element < uniform.size; ++element) {
+      const GLint location = gl().GetUniformLocation(program, elementName(uniform, element).c_str());
+      GLint unit = -1;
+      if (location >= 0) gl().GetUniformiv(program, location, &unit);
+      if (unit >= 0) units.insert(static_cast<GLuint>(unit));
+    }
+  }
+  return units;
 }
 
 std::vector<SubroutineChoice> subroutineChoices(const guard::ContextFacts& facts, GLuint original,

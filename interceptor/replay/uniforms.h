@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ std::string copyUniforms(const guard::ContextFacts&, GLuint original, GLuint cop
 // Sets uniforms of the current program, which is `program`; names that it does not have alive are skipped.
 // Returns "" or which value cannot be set.
 std::string setUniforms(GLuint program, const std::vector<std::unique_ptr<wire::UniformValueT>>& values);
+
+// The image units that the program's image uniforms stand at.
+std::set<GLuint> imageUnits(GLuint program);
 
 // Subroutine choice is context state of the current program: read from the original while it is current,
 // and selected by name each time the copy is.

@@ -220,6 +220,131 @@ int storageBlock() {
   return drawnEverywhere() ? 0 : 1;
 }
 
+// ---- memory that shaders write
+// ------------------------------------------------------------------------------------
+
+constexpr GLuint kPixels = scene::kWidth * scene::kHeight;
+
+// Every fragment adds 1 to its place in a storage buffer, a counter, a texture and a buffer texture; every
+// vertex to its own in another storage buffer. What is there before counts: 7, 5, 3, 1 and 9.
+constexpr const char* kCountingVertex =
+    "#version 430 compatibility\n"
+    "layout(std430, binding = 2) buffer Vertices { uint drawn[3]; };\n"
+    "void main() { atomicAdd(drawn[gl_VertexID], 1u); gl_Position = gl_Vertex; }\n";
+constexpr const char* kCountingFragment =
+    "#version 430 compatibility\n"
+    "layout(std430, binding = 1) buffer Cells { uint cells[]; };\n"
+    "layout(binding = 0, offset = 4) uniform atomic_uint fragments;\n"
+    "layout(r32f, binding = 3) uniform image2DArray picture;\n"
+    "layout(r32ui, binding = 5) uniform uimageBuffer row;\n"
+    "out vec4 color;\n"
+    "void main() {\n"
+    "  ivec2 place = ivec2(gl_FragCoord.xy);\n"
+    "  uint cell = cells[place.y * 48 + place.x];\n"
+    "  cells[place.y * 48 + place.x] = cell + 1u;\n"
+    "  atomicCounterIncrement(fragments);\n"
+    "  float before = imageLoad(picture, ivec3(place, 1)).x;\n"
+    "  imageStore(picture, ivec3(place, 1), vec4(before + 1.0));\n"
+    "  imageAtomicAdd(row, place.x, 1u);\n"
+    "  color = vec4(0.5);\n"
+    "}\n";
+
+GLuint filledBuffer(GLenum target, std::size_t words, GLuint value) {
+  const std::vector<GLuint> content(words, value);
+  GLuint buffer = 0;
+  glGenBuffers(1, &buffer);
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(words * 4), content.data(), GL_DYNAMIC_COPY);
+  return buffer;
+}
+
+bool allEqual(GLuint buffer, std::size_t words, GLuint value) {
+  std::vector<GLuint> content(words);
+  glBindBuffer(GL_COPY_READ_BUFFER, buffer);
+  glGetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(words * 4), content.data());
+  for (const GLuint word : content) {
+    if (word != value) return false;
+  }
+  return true;
+}
+
+int memory() {
+  const auto bind_image = opened<PFNGLBINDIMAGETEXTUREPROC>("glBindImageTexture");
+  const auto barrier = opened<PFNGLMEMORYBARRIERPROC>("glMemoryBarrier");
+  glUseProgram(link(kCountingVertex, {kCountingFragment}));
+
+  const GLuint cells = filledBuffer(GL_SHADER_STORAGE_BUFFER, kPixels, 7);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, cells);
+  GLint alignment = 256;
+  glGetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &alignment);
+  const std::size_t front = static_cast<std::size_t>(alignment) / 4;
+  const GLuint vertices = filledBuffer(GL_SHADER_STORAGE_BUFFER, front + 3, 9);
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 2, vertices, alignment, 12);
+  const GLuint counter = filledBuffer(GL_ATOMIC_COUNTER_BUFFER, 2, 5);
+  glBindBufferBase(GL_ATOMIC_COUNTER_BUFFER, 0, counter);
+
+  GLuint textures[2];
+  glGenTextures(2, textures);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, textures[0]);
+  const std::vector<GLfloat> threes(2 * kPixels, 3);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32F, scene::kWidth, scene::kHeight, 2, 0, GL_RED, GL_FLOAT,
+               threes.data());
+  bind_image(3, textures[0], 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32F);
+  const GLuint row = filledBuffer(GL_TEXTURE_BUFFER, scene::kWidth, 1);
+  glBindTexture(GL_TEXTURE_BUFFER, textures[1]);
+  glTexBuffer(GL_TEXTURE_BUFFER, GL_R32UI, row);
+  bind_image(5, textures[1], 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+
+  draw();
+  barrier(GL_ALL_BARRIER_BITS);
+  draw();
+  barrier(GL_ALL_BARRIER_BITS);
+
+  std::vector<GLfloat> picture(2 * kPixels);
+  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RED, GL_FLOAT, picture.data());
+  bool right = drawnEverywhere();
+  for (GLuint i = 0; i < 2 * kPixels; ++i) right = right && picture[i] == (i < kPixels ? 3.0F : 5.0F);
+  GLuint counted[2] = {};
+  glBindBuffer(GL_COPY_READ_BUFFER, counter);
+  glGetBufferSubData(GL_COPY_READ_BUFFER, 0, sizeof counted, counted);
+  right = right && counted[0] == 5 && counted[1] == 5 + 2 * kPixels;
+  GLuint drawn[3] = {};
+  glBindBuffer(GL_COPY_READ_BUFFER, vertices);
+  glGetBufferSubData(GL_COPY_READ_BUFFER, alignment, sizeof drawn, drawn);
+  for (const GLuint times : drawn) right = right && times == 9 + 2;
+  return right && allEqual(vertices, front, 9) && allEqual(cells, kPixels, 7 + 2) &&
+                 allEqual(row, scene::kWidth, 1 + 2 * scene::kHeight)
+             ? 0
+             : 1;
+}
+
+// Never twice the same.
+int clockInMemory() {
+  glUseProgram(link(kVertex, {"#version 430 compatibility\n#extension GL_ARB_shader_clock : require\n"
+                              "layout(std430, binding = 0) buffer Stamp { uint stamp; };\nout vec4 color;\n"
+                              "void main() { stamp = clock2x32ARB().x; color = vec4(0.5); }\n"}));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, filledBuffer(GL_SHADER_STORAGE_BUFFER, 1, 0));
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
+// What a debugger cannot copy it must not touch.
+int multisampledImage() {
+  glUseProgram(
+      link(kVertex, {"#version 430 compatibility\n"
+                     "layout(rgba8, binding = 0) writeonly uniform image2DMS samples;\nout vec4 color;\n"
+                     "void main() { imageStore(samples, ivec2(0), 1, vec4(1.0)); color = vec4(0.5); }\n"}));
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
+  glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, 4, GL_RGBA8, 4, 4, GL_TRUE);
+  opened<PFNGLBINDIMAGETEXTUREPROC>("glBindImageTexture")(0, texture, 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                                                          GL_RGBA8);
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
 int messages = 0;
 void GLAPIENTRY onMessage(GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar*, const void*) {
   ++messages;
@@ -269,6 +394,9 @@ int main(int argc, char** argv) {
       {"feedback", feedback},
       {"subroutines", subroutines},
       {"storage-block", storageBlock},
+      {"memory", memory},
+      {"clock-in-memory", clockInMemory},
+      {"multisampled-image", multisampledImage},
       {"debug-messages", debugMessages},
       {"forked", forked},
   };

@@ -7,10 +7,10 @@ namespace agent_test {
 namespace {
 
 TEST(Situations, goWellWithoutADebugger) {
-  for (const char* name :
-       {"ordinary", "deleted-program", "fixed-function", "immediate-mode", "display-list", "query",
-        "condition", "no-rasterizer", "multisampled", "pipeline", "several-shaders", "feedback",
-        "subroutines", "storage-block", "debug-messages", "forked"}) {
+  for (const char* name : {"ordinary", "deleted-program", "fixed-function", "immediate-mode", "display-list",
+                           "query", "condition", "no-rasterizer", "multisampled", "pipeline",
+                           "several-shaders", "feedback", "subroutines", "storage-block", "memory",
+                           "clock-in-memory", "multisampled-image", "debug-messages", "forked"}) {
     Scene scene({SITUATION, name}, {});
     EXPECT_EQ(scene.status(), 0) << name;
   }
@@ -143,6 +143,129 @@ TEST(Situations, theProgramsStorageBlockStaysBound) {
   const wire::ExecutedT executed = session.execute(execute);
   EXPECT_EQ(executed.differing, 0U);
   EXPECT_EQ(session.values<std::uint32_t>(executed.storage), (std::vector<std::uint32_t>{0, word(0.5F), 0}));
+  end(session);
+}
+
+// ---- memory that shaders write (kCountingFragment)
+// ------------------------------------------------------------------
+
+constexpr std::uint64_t kPixels = std::uint64_t{kWidth} * kHeight;
+// Colours, and a word each in the cells and for a vertex, the counter and what lies before it, both layers of
+// the picture, the row.
+constexpr std::uint64_t kCompared = 4 * kPixels + kPixels + 3 + 2 + 2 * kPixels + kWidth;
+
+wire::ExecutedT executeText(Session& session, const std::string& text, int repeats = 1) {
+  wire::PrepareT prepare;
+  prepare.text = text;
+  prepare.user_outputs = {"color"};
+  if (text.find("out uvec4 seen;") != std::string::npos) {
+    prepare.captures.push_back(captureOutput("seen", wire::CaptureFormat::Uint4));
+  }
+  wire::ExecuteT execute;
+  execute.handle = session.prepare(prepare);
+  execute.compare = true;
+  execute.repeats = static_cast<std::uint32_t>(repeats);
+  return session.execute(execute);
+}
+
+TEST(Memory, isWrittenOnceHoweverOftenTheDrawIsReplayed) {
+  Session session(SITUATION, "memory", "");
+  session.resumeTo(0, 1);
+  ASSERT_NE(session.receive(), nullptr);
+  const std::string text = fragmentText(session.describe());
+  const std::string capturing = inserted(
+      inserted(text, "void main", "out uvec4 seen;\n"),
+      "color = ", "seen = uvec4(cell, cells[place.y * 48 + place.x], floatBitsToUint(before), 1u); ");
+  for (int round = 0; round < 2; ++round) {
+    const wire::ExecutedT executed = executeText(session, capturing, 3);
+    EXPECT_EQ(executed.compare_reason, "");
+    EXPECT_EQ(executed.compared, kCompared);
+    EXPECT_EQ(executed.differing, 0U);
+    ASSERT_EQ(executed.attachments.size(), 1U);
+    const auto words = session.values<std::uint32_t>(executed.attachments[0]);
+    for (std::size_t i = 0; i < words.size(); i += 4) {
+      ASSERT_EQ(
+          std::vector<std::uint32_t>(&words[i], &words[i] + 4),
+          (std::vector<std::uint32_t>{8, 9, word(4.0F), 1}));  // after the first draw, before the second
+    }
+  }
+  end(session);
+}
+
+TEST(Memory, isWrittenOnceBesideTheDebuggersOwnBuffer) {
+  Session session(SITUATION, "memory", "");
+  session.resumeTo(0, 0);
+  ASSERT_NE(session.receive(), nullptr);
+  wire::PrepareT prepare;
+  prepare.text = inserted(inserted(fragmentText(session.describe()), "void main",
+                                   "layout(std430) buffer Debugger { uint seen[]; };\n"),
+                          "color = ", "seen[place.y * 48 + place.x] = cell; ");
+  prepare.user_outputs = {"color"};
+  prepare.storage_block = "Debugger";
+  wire::ExecuteT execute;
+  execute.handle = session.prepare(prepare);
+  execute.compare = true;
+  execute.storage_words = kPixels;
+  execute.repeats = 2;
+  const wire::ExecutedT executed = session.execute(execute);
+  EXPECT_EQ(executed.compared, kCompared);
+  EXPECT_EQ(executed.differing, 0U);
+  EXPECT_EQ(session.values<std::uint32_t>(executed.storage), std::vector<std::uint32_t>(kPixels, 7));
+  end(session);
+}
+
+TEST(Memory, isComparedWithWhatTheProgramsOwnDrawLeaves) {
+  Session session(SITUATION, "memory", "");
+  session.resumeTo(0, 0);
+  ASSERT_NE(session.receive(), nullptr);
+  const std::string text = fragmentText(session.describe());
+  const auto differing = [&](const std::string& statement) {
+    const wire::ExecutedT executed = executeText(session, inserted(text, "color = ", statement));
+    EXPECT_EQ(executed.compare_reason, "");
+    EXPECT_EQ(executed.compared, kCompared);
+    return executed.differing;
+  };
+  EXPECT_EQ(differing("cells[place.y * 48 + place.x] = uint(place.x < 2); "), kPixels);
+  EXPECT_EQ(differing("if (place.x < 2) cells[place.y * 48 + place.x] = 1u; "), 2U * kHeight);
+  EXPECT_EQ(differing("if (place.x < 3) atomicCounterIncrement(fragments); "), 1U);
+  EXPECT_EQ(differing("if (place.x < 4) imageStore(picture, ivec3(place, 0), vec4(8.0)); "), 4U * kHeight);
+  EXPECT_EQ(differing("if (place.x < 5) imageAtomicAdd(row, place.x, 1u); "), 5U);
+  end(session);
+}
+
+TEST(Memory, thatIsNeverTheSameProvesNothing) {
+  Session session(SITUATION, "clock-in-memory", "");
+  session.resumeTo(0, 0);
+  ASSERT_NE(session.receive(), nullptr);
+  const std::string text = fragmentText(session.describe());
+  const wire::ExecutedT same = executeText(session, text);
+  EXPECT_NE(same.compare_reason.find("the storage buffer at binding 0"), std::string::npos)
+      << same.compare_reason;
+  EXPECT_EQ(same.compared, 4 * kPixels);
+  EXPECT_EQ(same.differing, 0U);
+  // What is the same each time is compared all the same.
+  const wire::ExecutedT other =
+      executeText(session, inserted(text, "color = ", "if (gl_FragCoord.x < 1.0) color.x = 1.0; else "));
+  EXPECT_EQ(other.compare_reason, "");
+  EXPECT_GE(other.differing, std::uint64_t{kHeight});
+  end(session);
+}
+
+TEST(Memory, thatCannotBeCopiedIsNotTouched) {
+  Session session(SITUATION, "multisampled-image", "");
+  session.resumeTo(0, 0);
+  ASSERT_NE(session.receive(), nullptr);
+  wire::PrepareT prepare;
+  prepare.text = fragmentText(session.describe());
+  prepare.user_outputs = {"color"};
+  wire::ExecuteT execute;
+  execute.handle = session.prepare(prepare);
+  const auto reply = session.ask(execute);
+  const wire::FailedT* failed = reply->body.AsFailed();
+  ASSERT_NE(failed, nullptr);
+  EXPECT_EQ(failed->kind, wire::ErrorKind::Unsupported);
+  EXPECT_NE(failed->text.find("image at unit 0"), std::string::npos) << failed->text;
+  EXPECT_NE(failed->text.find("multisampled"), std::string::npos) << failed->text;
   end(session);
 }
 
