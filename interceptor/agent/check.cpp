@@ -64,7 +64,7 @@ Refusal Check::compare(const capture::Shadow& shadow, const guard::WritableMemor
   }
   if (!names.empty() && executed.differing == 0) {
     executed.compare_reason = "two draws of the program's own shader differ from each other in " + names +
-                              " (the order of its atomic operations or writes is open); the other " +
+                              ": an open order of writes, a clock or uninitialised variables; the other " +
                               std::to_string(executed.compared) + " components are identical";
   } else if (sections.empty()) {
     executed.compare_reason = "the draw writes to no buffer";
