@@ -68,5 +68,6 @@ void addStep(CLI::App&, Common&, Action&);
 void addLoops(CLI::App&, Common&, Action&);
 void addProfile(CLI::App&, Common&, Action&);
 void addDoctor(CLI::App&, Common&, Action&);
+void addVerify(CLI::App&, Common&, Action&);
 
 }  // namespace shadestep::cli

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace shadestep::session {
 
@@ -23,6 +24,18 @@ class Error : public std::runtime_error {
 
  private:
   Outcome outcome_;
+};
+
+// The driver does not take a text that the debugger made: a defect of the debugger's, `log` is the driver's
+// own.
+class DriverRefusal : public Error {
+ public:
+  DriverRefusal(const std::string& sentence, std::string log)
+      : Error(Outcome::cannot_debug, sentence + log), log_(std::move(log)) {}
+  const std::string& log() const { return log_; }
+
+ private:
+  std::string log_;
 };
 
 }  // namespace shadestep::session

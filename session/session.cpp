@@ -72,10 +72,9 @@ std::string ordinalDraws(std::uint64_t draws) {
 [[noreturn]] void raise(const wire::FailedT& failed) {
   switch (failed.kind) {
     case wire::ErrorKind::Compile:
-      throw Error(Outcome::cannot_debug, "the driver refused the instrumented shader: " + failed.text);
+      throw DriverRefusal("the driver refused the instrumented shader: ", failed.text);
     case wire::ErrorKind::Link:
-      throw Error(Outcome::cannot_debug,
-                  "the driver could not link the instrumented program: " + failed.text);
+      throw DriverRefusal("the driver could not link the instrumented program: ", failed.text);
     default:
       throw Error(Outcome::cannot_debug, failed.text);
   }
@@ -565,14 +564,22 @@ Captured Session::capture(const instrumenter::AttachmentShader& instrumented, co
   return captured;
 }
 
-Session::Recorded Session::record(int x, int y, int width, int height) {
+Session::PreparedRecording Session::prepareRecording() {
   auto instrumented = instrumenter::instrumentRecording(shader(Stage::fragment), target());
   if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) {
     throw Error(Outcome::cannot_debug, failure->reason);
   }
-  const auto& recording_shader = std::get<instrumenter::RecordingShader>(instrumented);
-  const Prepared prepared = prepare(recording_shader);
+  auto& recording_shader = std::get<instrumenter::RecordingShader>(instrumented);
+  Prepared prepared = prepare(recording_shader);
+  return {std::move(recording_shader), std::move(prepared)};
+}
 
+Session::Recorded Session::record(int x, int y, int width, int height) {
+  return record(prepareRecording(), x, y, width, height);
+}
+
+Session::Recorded Session::record(const PreparedRecording& prepared, int x, int y, int width, int height) {
+  const instrumenter::RecordingShader& recording_shader = prepared.shader;
   // The shader compares with gl_FragCoord, which may count rows from the top.
   const bool from_top = countsRowsFromTop(shader(Stage::fragment));
   const int first_row = from_top ? facts().height - y - height : y;
@@ -595,7 +602,7 @@ Session::Recorded Session::record(int x, int y, int width, int height) {
     options.storage_words = words;
     options.read_outputs = true;
     Recorded recorded;
-    recorded.execution = execute(prepared, options);
+    recorded.execution = execute(prepared.program, options);
     recorded.layout = recording_shader.layout;
     recorded.recording = instrumenter::decodeRecording(recording_shader.layout, recorded.execution.storage);
     if (!recorded.recording.error.empty()) throw Error(Outcome::failed, recorded.recording.error);

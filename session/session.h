@@ -191,6 +191,11 @@ class Session {
   Execution execute(const Prepared&, const ExecuteOptions& = {});
   // prepare + execute + join the attachments per pixel.
   Captured capture(const instrumenter::AttachmentShader&, const ExecuteOptions& = {});
+  struct PreparedRecording {
+    instrumenter::RecordingShader shader;
+    Prepared program;
+  };
+  PreparedRecording prepareRecording();
   // All threads of a rectangle of pixels (lower left corner, size), with as much room as they need.
   struct Recorded {
     instrumenter::Recording recording;
@@ -198,7 +203,8 @@ class Session {
     Execution execution;
     ThreadWords visible;  // of execution's attachment: mark, invocation
   };
-  Recorded record(int x, int y, int width, int height);
+  Recorded record(const PreparedRecording&, int x, int y, int width, int height);
+  Recorded record(int x, int y, int width, int height);  // prepares it first
 
   void release(std::uint32_t handle) noexcept;  // by ~Prepared
 

@@ -242,6 +242,19 @@ std::vector<ThreadRun::Output> outputsAt(const Execution& execution, int x, int 
   return outputs;
 }
 
+// Which fragment the pixel shows is written to the attachment by the fragment itself.
+int visibleThread(const Session::Recorded& recorded, int x, int y) {
+  const instrumenter::AttachmentLayout& attachment = recorded.layout.attachment;
+  const std::uint32_t* words = recorded.visible.at(x, y);
+  if (instrumenter::decodeMark(attachment, words) == 0) return -1;
+  const std::uint32_t shown = instrumenter::decode(attachment, attachment.fields.at(0), words).words.at(0);
+  const auto& threads = recorded.recording.threads;
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    if (threads[i].invocation == shown) return static_cast<int>(i);
+  }
+  return -1;
+}
+
 ThreadRun followPixel(Session& session, int x, int y, int hit) {
   const DrawFacts& facts = session.facts();
   if (x < 0 || y < 0 || x >= facts.width || y >= facts.height) {
@@ -271,18 +284,8 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
                                               std::to_string(threads.size() - 1));
   }
 
-  // Which fragment the pixel shows is written to the attachment by the fragment itself.
-  const auto& attachment = recorded.layout.attachment;
-  const std::uint32_t* words = recorded.visible.at(x, y);
-  std::uint32_t shown = 0;
-  if (instrumenter::decodeMark(attachment, words) != 0) {
-    shown = instrumenter::decode(attachment, attachment.fields.at(0), words).words.at(0);
-  }
-  int chosen = hit;
-  for (std::size_t i = 0; i < threads.size() && chosen < 0; ++i) {
-    if (threads[i].invocation == shown) chosen = static_cast<int>(i);
-  }
-  if (chosen < 0) chosen = static_cast<int>(threads.size()) - 1;
+  const int shown = visibleThread(recorded, x, y);
+  const int chosen = hit >= 0 ? hit : shown >= 0 ? shown : static_cast<int>(threads.size()) - 1;
 
   const instrumenter::ThreadRecording& thread = threads[static_cast<std::size_t>(chosen)];
   ThreadRun run;
@@ -290,7 +293,7 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
   run.y = y;
   run.hit = chosen;
   run.hits = static_cast<int>(threads.size());
-  run.visible = thread.invocation == shown;
+  run.visible = chosen == shown;
   run.discarded = thread.discarded;
   run.steps = stepsOf(session.shader(Stage::fragment), recorded.layout, thread);
   run.outputs = outputsAt(recorded.execution, x, y);

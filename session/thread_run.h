@@ -56,6 +56,9 @@ struct ThreadRun {
 // storage buffers, only the visible fragment can be followed, by one redraw per step (probed_run.h).
 ThreadRun followPixel(Session&, int x, int y, int hit = -1);
 
+// Number of the recorded thread that the pixel shows; -1 if it shows none of them.
+int visibleThread(const Session::Recorded&, int x, int y);
+
 // The steps of one recorded thread.
 std::vector<Step> stepsOf(const frontend::Shader&, const instrumenter::RecordingLayout&,
                           const instrumenter::ThreadRecording&);

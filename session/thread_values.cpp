@@ -105,7 +105,7 @@ ThreadValues valuesAt(Session& session, const PlaceSelection& place,
 
 ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {
   const Shader& shader = session.shader(Stage::fragment);
-  std::vector<frontend::Watch> wanted;
+  probe.watches.clear();
   for (const std::string& text : watches) {
     frontend::WatchResult resolved = frontend::resolveWatch(shader, probe.statement, text);
     if (!resolved.watch) throw Error(Outcome::nothing_matches, resolved.error);
@@ -113,9 +113,14 @@ ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::stri
       throw Error(Outcome::nothing_matches, "'" + text + "' is a " + glslName(resolved.watch->type) +
                                                 ", which holds no value to print");
     }
-    wanted.push_back(std::move(*resolved.watch));
+    probe.watches.push_back(std::move(*resolved.watch));
   }
+  return valuesAt(session, std::move(probe));
+}
 
+ThreadValues valuesAt(Session& session, Probe probe) {
+  const Shader& shader = session.shader(Stage::fragment);
+  const std::vector<frontend::Watch> wanted = std::move(probe.watches);
   ThreadValues result;
   result.statement = probe.statement;
   std::size_t done = 0;
@@ -128,7 +133,8 @@ ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::stri
     const auto& attachment_shader = std::get<instrumenter::AttachmentShader>(instrumented);
     const Captured captured = session.capture(attachment_shader);
     const std::size_t fields = captured.layout.fields.size();
-    if (fields == 0 && done < wanted.size()) {
+    const std::size_t watched = fields - (probe.outcome ? 1 : 0);
+    if (watched == 0 && done < wanted.size()) {
       throw Error(Outcome::cannot_debug, "'" + wanted[done].expression +
                                              "' is larger than what the driver's " +
                                              std::to_string(session.facts().max_draw_buffers) +
@@ -137,7 +143,8 @@ ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::stri
 
     const std::size_t pixels =
         static_cast<std::size_t>(captured.threads.width) * static_cast<std::size_t>(captured.threads.height);
-    if (done == 0) {
+    const bool repeated = !result.marks.empty();
+    if (!repeated) {
       result.width = captured.threads.width;
       result.height = captured.threads.height;
       result.marks.resize(pixels);
@@ -149,7 +156,7 @@ ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::stri
     for (std::size_t p = 0; p < pixels; ++p) {
       const auto mark = static_cast<std::uint8_t>(
           instrumenter::decodeMark(captured.layout, captured.threads.data.data() + p * stride));
-      if (done > 0 && mark != result.marks[p]) {
+      if (repeated && mark != result.marks[p]) {
         throw Error(Outcome::failed,
                     "two passes of one probe disagree about which threads got there; "
                     "the draw does not repeat exactly, so its values cannot be trusted");
@@ -169,7 +176,7 @@ ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::stri
       }
       result.values.push_back(std::move(values));
     }
-    done += fields - (probe.outcome ? 1 : 0);
+    done += watched;
     probe.outcome = false;  // the first pass has it
   } while (done < wanted.size());
 

@@ -45,9 +45,10 @@ struct ThreadValues {
 // Throws nothing_matches for a place or a name that is not there, saying what is.
 ThreadValues valuesAt(Session&, const PlaceSelection&, const std::vector<std::string>& watches);
 
-// The same for a probe; its `watches` are replaced. With `outcome`, the first value is the condition's, named
-// "".
+// The same for a probe; with names, its `watches` are replaced. With `outcome`, the first value is the
+// condition's, named "".
 ThreadValues valuesAt(Session&, instrumenter::Probe, const std::vector<std::string>& watches);
+ThreadValues valuesAt(Session&, instrumenter::Probe);
 
 // The statement and call path that a selection means. Throws nothing_matches.
 instrumenter::Probe probeAt(const frontend::Shader&, const PlaceSelection&);

@@ -92,9 +92,15 @@ Refusal confirmCaptures(const guard::ContextFacts& facts, const capture::DrawTar
   for (std::size_t i = 0; i < captures.size(); ++i) {
     const wire::CaptureOutputT& output = *request.captures[i];
     if (!builtIn(request, output)) {
-      captures[i].location = gl().GetFragDataLocation(copy, output.name.c_str());
-      if (captures[i].location < 0) {
+      const GLint location = gl().GetFragDataLocation(copy, output.name.c_str());
+      if (location >= 0) {
+        captures[i].location = location;
+      } else if (i == 0) {
         return {wire::ErrorKind::Link, "the linked program has no output " + output.name + " to capture"};
+      } else {
+        // Every word of this output is a value that the shader never defines, and the linker dropped it. The
+        // first output holds the mark, which is always defined.
+        while (taken.count(captures[i].location) != 0) ++captures[i].location;
       }
     }
     Refusal refusal = checkPlace(facts, taken, captures[i].location, captures.size());

@@ -1,0 +1,155 @@
+// shadestep verify: every site of every selected draw by every plan, compared with each other and with the
+// draw as the program makes it.
+#include "session/verify.h"
+
+#include <chrono>
+#include <iostream>
+
+#include "cli/common.h"
+
+namespace shadestep::cli {
+namespace {
+
+struct Options {
+  std::string frames;
+  long long draw = -1;  // -1: all
+  bool keep_running = false;
+  session::VerifyOptions verify;
+};
+
+Json toJson(const session::VerifyFailure& failure) {
+  Json json;
+  json["kind"] = session::kindName(failure.kind);
+  json["frame"] = failure.frame;
+  json["draw"] = failure.draw;
+  json["line"] = failure.line;
+  json["column"] = failure.column;
+  json["plan"] = failure.plan;
+  json["variable"] = failure.variable;
+  json["detail"] = failure.detail;
+  return json;
+}
+
+Json toJson(const session::VerifyReport& report) {
+  Json json;
+  json["draws"] = report.draws;
+  json["shaders"] = report.shaders;
+  json["sites"] = report.sites;
+  json["passes"] = report.passes;
+  json["values_compared"] = report.compared;
+  json["analysis_failed"] = report.analysis_failed;
+  json["compile_failed"] = report.compile_failed;
+  json["output_mismatch"] = report.output_mismatch;
+  json["value_mismatch"] = report.value_mismatch;
+  json["state_leaks"] = report.state_leaks;
+  json["crashes"] = report.crashes;
+  json["program_output_identical"] = nullptr;
+  json["skipped"] = Json::array();
+  for (const auto& [reason, count] : report.skipped) {
+    json["skipped"].push_back({{"reason", reason}, {"count", count}});
+  }
+  json["failures"] = Json::array();
+  for (const auto& failure : report.failures) json["failures"].push_back(toJson(failure));
+  return json;
+}
+
+void printText(const session::VerifyReport& report, double seconds) {
+  std::cout << report.draws << " draws, " << report.shaders << " fragment shaders, " << report.sites
+            << " sites, " << withThousands(report.passes) << " passes, " << withThousands(report.compared)
+            << " values compared, " << static_cast<int>(seconds + 0.5) << " s\n"
+            << "  instrumented shaders that do not compile  " << report.compile_failed << "\n"
+            << "  passes with other outputs                 " << report.output_mismatch << "\n"
+            << "  values that differ between plans          " << report.value_mismatch << "\n"
+            << "  state left changed                        " << report.state_leaks << "\n"
+            << "  crashes of the program                    " << report.crashes << "\n";
+  for (const auto& [reason, count] : report.skipped)
+    std::cout << "  skipped " << count << " x: " << reason << "\n";
+}
+
+void printFailures(const session::VerifyReport& report) {
+  for (const auto& failure : report.failures) {
+    std::cerr << "shadestep: " << session::kindName(failure.kind) << ": frame " << failure.frame << ", draw "
+              << failure.draw;
+    if (failure.line > 0) std::cerr << ", line " << failure.line << ":" << failure.column;
+    std::cerr << (failure.plan.empty() ? "" : ", " + failure.plan)
+              << (failure.variable.empty() ? "" : ", " + failure.variable) << ": " << failure.detail << "\n";
+  }
+}
+
+// "A" or "A..B"
+std::pair<std::uint64_t, std::uint64_t> frameRange(std::string range) {
+  const std::string given = range;
+  if (const auto dots = range.find(".."); dots != std::string::npos) range.replace(dots, 2, ",");
+  const std::vector<int> numbers = parseIntegers(range, "--frames", 1, 2);
+  if (numbers.front() < 0 || numbers.back() < numbers.front()) {
+    throw session::Error(session::Outcome::usage,
+                         "--frames takes A..B with 0 <= A <= B, not '" + given + "'");
+  }
+  return {static_cast<std::uint64_t>(numbers.front()), static_cast<std::uint64_t>(numbers.back())};
+}
+
+int run(const Common& common, const Options& options) {
+  const auto [first, last] =
+      options.frames.empty() ? std::pair(common.frame, common.frame) : frameRange(options.frames);
+  const auto start = std::chrono::steady_clock::now();
+  session::Session session(common.launchOptions());
+  session::Verifier verifier(session, options.verify);
+  int status = 0;
+  try {
+    session.forEachDraw(first, last, [&](const session::DrawStop& stop) {
+      if (options.draw >= 0 && stop.draw != static_cast<std::uint64_t>(options.draw)) return;
+      verifier.verifyDraw();
+    });
+    if (options.keep_running) status = session.runToEnd();
+  } catch (const session::Error& error) {
+    if (verifier.report().draws == 0) throw;
+    verifier.addCrash(error.what());
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+
+  const session::VerifyReport& report = verifier.report();
+  if (common.json) {
+    Json json = toJson(report);
+    json["program_status"] = options.keep_running ? Json(status) : Json(nullptr);
+    json["seconds"] = seconds.count();
+    print(json);
+  } else {
+    printText(report, seconds.count());
+  }
+  if (!common.quiet) printFailures(report);
+  return report.passed() ? 0 : static_cast<int>(session::Outcome::failed);
+}
+
+}  // namespace
+
+void addVerify(CLI::App& app, Common& common, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "verify", "step through every site of every selected draw by every plan, and check the results");
+  auto options = std::make_shared<Options>();
+  addCommonOptions(*command, common);
+  command->add_option("--frame", common.frame, "the frame, 0-based")->type_name("N");
+  command->add_option("--frames", options->frames, "frames A to B (default 0..0)")->type_name("A..B");
+  command->add_option("--draw", options->draw, "this draw of each frame only (default: all)")->type_name("N");
+  command
+      ->add_option("--pixels", options->verify.pixels, "pixels that are recorded and compared in each draw")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--draws-per-shader", options->verify.draws_per_shader,
+                   "draws with the same program and text that are looked at")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--budget", options->verify.seconds_per_draw,
+                   "seconds for one draw; further sites are skipped")
+      ->type_name("S")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--continue", options->keep_running, "then let the program run to its own end");
+  command->callback(
+      [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });
+}
+
+}  // namespace shadestep::cli

@@ -1,0 +1,73 @@
+// `verify`: steps through every site of a draw's fragment shader by every capture plan that the driver
+// offers, and compares what must be equal. The debugger tests itself on the user's own shaders and driver.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/session.h"
+
+namespace shadestep::session {
+
+struct VerifyOptions {
+  int pixels = 8;                // recorded and compared in each draw, spread over what the draw covers
+  int draws_per_shader = 1;      // later draws with the same program and text are skipped
+  double seconds_per_draw = 60;  // then the rest of the draw's sites is skipped
+};
+
+// One thing that was not as it must be, so that a person can look at it again with `shadestep debug`.
+struct VerifyFailure {
+  enum class Kind { compile, output, value, state, crash };
+  Kind kind = Kind::value;
+  std::uint64_t frame = 0, draw = 0;
+  int line = 0, column = 0;  // 0: the whole draw
+  std::string plan;          // "copy", "single before", "single after", "recording", "state"
+  std::string variable;
+  std::string detail;
+};
+
+struct VerifyReport {
+  std::uint64_t draws = 0;    // looked at, those skipped included
+  std::uint64_t shaders = 0;  // different fragment shaders that were stepped through
+  std::uint64_t sites = 0;    // places at which some plan looked
+  std::uint64_t passes = 0;   // instrumented shaders drawn with
+  std::uint64_t compared =
+      0;  // values (variables at a place on a pixel) that two plans agree or disagree about
+  std::uint64_t analysis_failed = 0;  // different fragment shaders that cannot be analysed
+  std::uint64_t compile_failed = 0, output_mismatch = 0, value_mismatch = 0, state_leaks = 0, crashes = 0;
+  std::map<std::string, std::uint64_t> skipped;  // reason -> how often
+  std::vector<VerifyFailure> failures;           // at most kMostFailures
+  static constexpr std::size_t kMostFailures = 200;
+
+  bool passed() const {
+    return compile_failed + output_mismatch + value_mismatch + state_leaks + crashes == 0;
+  }
+};
+
+// Checks draws one by one; remembers which shaders it has seen.
+class Verifier {
+ public:
+  Verifier(Session& session, VerifyOptions options) : session_(session), options_(options) {}
+
+  // The draw at which the session stands. What cannot be checked is counted under `skipped`; throws only if
+  // the program under debug is gone or the time limit of the session ran out.
+  void verifyDraw();
+  const VerifyReport& report() const { return report_; }
+  // Something that went wrong outside a draw's own checks, such as the end of the program.
+  void addCrash(const std::string& detail);
+
+ private:
+  Session& session_;
+  VerifyOptions options_;
+  VerifyReport report_;
+  std::map<std::pair<std::uint32_t, std::string>, int> seen_;  // program, text -> draws
+  std::set<std::string> texts_;
+};
+
+const char* kindName(VerifyFailure::Kind);  // "compile", "output", ...
+
+}  // namespace shadestep::session

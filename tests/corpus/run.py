@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+"""Runs `shadestep verify` on piglit's shader tests and compares each test's own verdict with and without it.
+
+    scripts/corpus [TEST...] [--list FILE] [--sample N] [--jobs 2] [--timeout S] [--budget S] [--out DIR]
+
+TEST: paths below piglit's directory (tests/spec/..., generated_tests/spec/...), or patterns of such paths.
+Default: the fixed list tests/corpus/list-300.txt. Writes results.jsonl (a line a test, with every failure) and
+table.md to --out (build/corpus), and prints the table. Exit status: 0 if nothing failed, 1 if something did,
+77 if piglit is not installed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import concurrent.futures
+import json
+import random
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import piglit
+
+FOLDER = Path(__file__).resolve().parent
+REPOSITORY = FOLDER.parent.parent
+FAILURES = ("compile_failed", "output_mismatch", "value_mismatch", "state_leaks", "crashes")
+
+
+def check(test: str, root: Path, options: argparse.Namespace) -> dict:
+    """One test: bare, then under verify."""
+    start = time.monotonic()
+    command = piglit.command(root, test)
+    entry: dict = {"test": test, "directory": piglit.directory(test)}
+    status, out, err = piglit.run(command, options.timeout)
+    entry["bare"] = "timeout" if status is None else piglit.result(out + err)
+    if entry["bare"] not in ("skip", "timeout"):
+        verify = [str(options.shadestep), "verify", "--json", "--continue", "--quiet", "--budget", str(options.budget),
+                  "--timeout", str(int(options.timeout)), "--", *command]
+        status, out, err = piglit.run(verify, options.timeout + 20)
+        entry["verified"] = "timeout" if status is None else piglit.result(err)
+        entry["status"] = status
+        try:
+            entry["report"] = json.loads(out)
+        except json.JSONDecodeError:
+            entry["report"] = None
+            entry["message"] = err.strip().splitlines()[-1:]
+    entry["seconds"] = round(time.monotonic() - start, 2)
+    entry["repeat"] = " ".join(["PIGLIT_PLATFORM=surfaceless_egl", "shadestep", "verify", "--", *command])
+    return entry
+
+
+def problems(entry: dict) -> list[str]:
+    """What is wrong with this test's run, in words."""
+    if "verified" not in entry:
+        return []
+    found = []
+    if entry["verified"] != entry["bare"]:
+        found.append(f"the test says '{entry['verified']}' under shadestep and '{entry['bare']}' without")
+    report = entry["report"]
+    if report is None:
+        # A test that never draws ends before there is anything to select.
+        if entry["status"] not in (3, 5):
+            found.append(f"verify ended with status {entry['status']}: {entry['message']}")
+        return found
+    found += [f"{name} {report[name]}" for name in FAILURES if report[name]]
+    return found
+
+
+def table(entries: list[dict]) -> str:
+    """A row a directory, as Markdown."""
+    header = ["directory", "tests", "driver skips", "draws", "shaders", "analysable", "sites", "values compared",
+              "compile failures", "output mismatches", "value mismatches", "state leaks", "crashes",
+              "verdict changed", "s"]
+    rows: dict[str, collections.Counter] = collections.defaultdict(collections.Counter)
+    for entry in entries:
+        for name in (entry["directory"], "all"):
+            row = rows[name]
+            row["tests"] += 1
+            row["driver skips"] += entry["bare"] == "skip"
+            row["s"] += entry["seconds"]
+            row["verdict changed"] += "verified" in entry and entry["verified"] != entry["bare"]
+            report = entry.get("report")
+            if report is None:
+                continue
+            row["draws"] += report["draws"]
+            row["shaders"] += report["shaders"]
+            row["refused"] += report["analysis_failed"]
+            row["sites"] += report["sites"]
+            row["values compared"] += report["values_compared"]
+            for name_of, key in zip(header[8:13], FAILURES):
+                row[name_of] += report[key]
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    for name in sorted(rows, key=lambda one: (one == "all", one)):
+        row = rows[name]
+        seen = row["shaders"] + row["refused"]
+        cells = [name]
+        for column in header[1:]:
+            if column == "analysable":
+                cells.append(f"{100 * row['shaders'] / seen:.1f} %" if seen else "-")
+            else:
+                cells.append(f"{row[column]:.0f}")
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def skipped(entries: list[dict]) -> str:
+    """Why draws, plans and values were left out, as Markdown."""
+    reasons: collections.Counter = collections.Counter()
+    for entry in entries:
+        for one in (entry.get("report") or {}).get("skipped", []):
+            reasons[one["reason"].splitlines()[0][:160]] += one["count"]
+    return "\n".join(["| skipped | reason |", "|---|---|"] + [f"| {n} | {why} |" for why, n in reasons.most_common()]) + "\n"
+
+
+def select(root: Path, options: argparse.Namespace) -> list[str]:
+    if options.tests:
+        tests = [str(path.relative_to(root)) for pattern in options.tests for path in sorted(root.glob(pattern))]
+    else:
+        tests = [line for line in options.list.read_text().split("\n") if line and not line.startswith("#")]
+    if options.sample and options.sample < len(tests):
+        tests = sorted(random.Random(options.seed).sample(tests, options.sample))
+    return tests
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tests", nargs="*", metavar="TEST")
+    parser.add_argument("--list", type=Path, default=FOLDER / "list-300.txt")
+    parser.add_argument("--sample", type=int, help="only N of them, chosen by --seed")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--timeout", type=float, default=60, help="seconds for one run of one test")
+    parser.add_argument("--budget", type=float, default=10, help="seconds for one draw")
+    parser.add_argument("--shadestep", type=Path, default=REPOSITORY / "build" / "release" / "bin" / "shadestep")
+    parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "corpus")
+    options = parser.parse_args()
+
+    root = piglit.root()
+    if root is None:
+        print(f"corpus: skipped: {piglit.HOW_TO_GET_IT}", file=sys.stderr)
+        return 77
+    if not options.shadestep.exists():
+        print(f"corpus: no {options.shadestep}; build first (scripts/build)", file=sys.stderr)
+        return 2
+    tests = select(root, options)
+    if not tests:
+        print("corpus: no test matches", file=sys.stderr)
+        return 2
+
+    start = time.monotonic()
+    options.out.mkdir(parents=True, exist_ok=True)
+    entries = []
+    bad = 0
+    with open(options.out / "results.jsonl", "w") as results:
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            for entry in pool.map(lambda test: check(test, root, options), tests):
+                entry["problems"] = problems(entry)
+                results.write(json.dumps(entry) + "\n")
+                results.flush()
+                entries.append(entry)
+                bad += bool(entry["problems"])
+                for problem in entry["problems"]:
+                    print(f"corpus: {entry['test']}: {problem}", file=sys.stderr)
+                if sys.stderr.isatty():
+                    print(f"{len(entries)} of {len(tests)}, {bad} with problems", end="\r", file=sys.stderr)
+    minutes = (time.monotonic() - start) / 60
+    version = subprocess.run([options.shadestep, "--version"], capture_output=True, text=True).stdout.strip()
+    summary = (f"{version}; {len(entries)} tests, {bad} with problems, {minutes:.1f} minutes with {options.jobs} jobs.\n\n"
+               + table(entries) + "\n" + skipped(entries))
+    (options.out / "table.md").write_text(summary)
+    print(summary)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
