@@ -362,6 +362,13 @@ const frontend::Shader& Session::shader(Stage stage) {
               "the draw's program has no " + std::string(stageName(stage)) + " shader; it has: " + present);
 }
 
+std::vector<std::pair<std::string, std::string>> Session::glState() {
+  const auto [reply, bulk] = state_->ask<wire::StateT>(wire::DescribeStateT{});
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const auto& one : reply.values) values.emplace_back(one->name, one->value);
+  return values;
+}
+
 void Session::requireCapturable() {
   shader(Stage::fragment);  // throws if it cannot be analysed
   const DrawFacts& draw = facts();

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "glsl-frontend/shader.h"
@@ -179,6 +180,9 @@ class Session {
   // stage.
   const frontend::Shader& shader(Stage);
   instrumenter::Target target();  // what the driver offers to instrumented fragment shaders
+
+  // All state of the program's context that can be asked for: names and values, always in the same order.
+  std::vector<std::pair<std::string, std::string>> glState();
 
   // Throws cannot_debug, with the reason, if captures of the fragment shader cannot work at this draw.
   void requireCapturable();

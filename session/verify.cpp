@@ -1,7 +1,6 @@
 #include "session/verify.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <optional>
 #include <random>
@@ -46,7 +45,9 @@ struct Part {
 void addParts(const Part& whole, std::vector<Part>& parts) {
   const int words = frontend::wordCount(whole.type);
   if (words == 0) return;
-  if (words <= kPartWords || (!whole.type.isArray() && whole.type.basic != frontend::Basic::struct_)) {
+  const bool composed =
+      whole.type.isArray() || whole.type.isMatrix() || whole.type.basic == frontend::Basic::struct_;
+  if (words <= kPartWords || !composed) {
     parts.push_back(whole);
     return;
   }
@@ -58,6 +59,10 @@ void addParts(const Part& whole, std::vector<Part>& parts) {
   if (whole.type.isArray()) {
     for (int i = 0; i < whole.type.array.front(); ++i)
       add("[" + std::to_string(i) + "]", whole.type.element());
+  } else if (whole.type.isMatrix()) {
+    frontend::Type column = whole.type;
+    column.columns = 1;
+    for (int i = 0; i < whole.type.columns; ++i) add("[" + std::to_string(i) + "]", column);
   } else {
     for (const frontend::Member& member : whole.type.members->members) add("." + member.name, member.type);
   }
@@ -125,6 +130,13 @@ class DrawCheck {
       : session_(session), options_(options), report_(report), shader_(session.shader(Stage::fragment)) {}
 
   void run() {
+    const auto before = session_.glState();
+    look();
+    compareState(before, session_.glState());
+  }
+
+ private:
+  void look() {
     if (!copyIsFaithful()) return;
     if (!findPixels()) return;
     record();
@@ -135,7 +147,6 @@ class DrawCheck {
     }
   }
 
- private:
   struct RecordedPixel {
     Pixel pixel;
     Session::Recorded recorded;
@@ -184,6 +195,22 @@ class DrawCheck {
     }
   }
 
+  // ---- the program's state
+  // ---------------------------------------------------------------------------------
+
+  using GlState = std::vector<std::pair<std::string, std::string>>;
+  void compareState(const GlState& before, const GlState& after) {
+    for (std::size_t i = 0; i < std::max(before.size(), after.size()); ++i) {
+      if (i >= before.size() || i >= after.size() || before[i].first != after[i].first) {
+        return fail(Kind::state, nullptr, "state", "", "the driver answers other questions than before");
+      }
+      if (before[i].second != after[i].second) {
+        fail(Kind::state, nullptr, "state", before[i].first,
+             "was " + before[i].second + ", is " + after[i].second);
+      }
+    }
+  }
+
   // ---- the draw without instrumentation
   // --------------------------------------------------------------------
 
@@ -208,12 +235,9 @@ class DrawCheck {
     return first.check.differing == 0;
   }
 
-  static bool sameBits(const std::vector<std::vector<float>>& a, const std::vector<std::vector<float>>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-      return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), [](float p, float q) {
-               return std::bit_cast<std::uint32_t>(p) == std::bit_cast<std::uint32_t>(q);
-             });
-    });
+  static bool sameBits(const std::vector<ColorOutput>& a, const std::vector<ColorOutput>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const ColorOutput& x, const ColorOutput& y) { return x.words == y.words; });
   }
 
   // ---- which pixels

@@ -8,6 +8,7 @@
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/replay/writable.h"
+#include "interceptor/guard/state_digest.h"
 
 namespace shadestep::agent {
 namespace {
@@ -150,6 +151,8 @@ Reply Stop::answer(const wire::MessageT& request) {
   Reply reply;
   if (request.body.AsDescribe() != nullptr) {
     reply = success(describe(facts()));
+  } else if (request.body.AsDescribeState() != nullptr) {
+    reply = replied(describeState());
   } else if (const wire::PrepareT* prepare_request = request.body.AsPrepare()) {
     reply = replied(prepare(*prepare_request));
   } else if (const wire::ExecuteT* execute_request = request.body.AsExecute()) {
@@ -170,6 +173,20 @@ Reply Stop::answer(const wire::MessageT& request) {
 const DrawFacts& Stop::facts() {
   if (!facts_) facts_ = drawFacts(call_);
   return *facts_;
+}
+
+// ---- DescribeState
+// -------------------------------------------------------------------------------------------
+
+OrRefusal<wire::StateT> Stop::describeState() {
+  wire::StateT state;
+  for (guard::StateValue& value : guard::stateDigest(facts().context)) {
+    auto one = std::make_unique<wire::StateValueT>();
+    one->name = std::move(value.name);
+    one->value = std::move(value.value);
+    state.values.push_back(std::move(one));
+  }
+  return state;
 }
 
 // ---- Prepare

@@ -33,10 +33,11 @@ class Stop {
   explicit Stop(const calls::DrawCall&);
 
   wire::StoppedT announcement(std::uint64_t frame, std::uint64_t draw) const;
-  // Answers Describe, Prepare, Execute and Release; Failed to anything else.
+  // Answers Describe, DescribeState, Prepare, Execute and Release; Failed to anything else.
   Reply answer(const wire::MessageT& request);
 
  private:
+  guard::OrRefusal<wire::StateT> describeState();
   guard::OrRefusal<wire::PreparedT> prepare(const wire::PrepareT&);
   guard::OrRefusal<wire::ExecutedT> execute(const wire::ExecuteT&, wire::SharedMemory& bulk);
   guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy&, const guard::ProgramGuard&,

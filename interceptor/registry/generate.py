@@ -26,6 +26,7 @@ def outputs(apis: list[model.Api], shards: int) -> dict[str, tuple[str, dict]]:
     files: dict[str, tuple[str, dict]] = {
         "gl_types.h": ("gl_types.h.jinja", {}),
         "gl_enums.h": ("gl_enums.h.jinja", {}),
+        "state_names.h": ("state_names.h.jinja", {}),
         "gl_declarations.h": ("declarations.h.jinja", {}),
         "commands.cpp": ("commands.cpp.jinja", {}),
         "idle_hooks.cpp": ("idle_hooks.cpp.jinja", {}),

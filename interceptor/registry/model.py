@@ -84,6 +84,7 @@ class Api:
     commands: list[Command]
     types: list[str] = field(default_factory=list)  # C text, in order
     enums: dict[str, str] = field(default_factory=dict)  # GL_POINTS -> 0x0000
+    groups: dict[str, list[str]] = field(default_factory=dict)  # GetPName -> GL_CURRENT_COLOR, ...
 
     def __post_init__(self) -> None:
         self.commands.sort(key=lambda c: c.name)
@@ -112,7 +113,18 @@ def read_xml(path: Path, name: str, prefix: str) -> Api:
         for e in root.findall("enums/enum")
         if e.get("api") in (None, "gl")
     }
-    return Api(name, prefix, commands, [t for t in types if t], enums)
+    return Api(name, prefix, commands, [t for t in types if t], enums, _groups(root, enums))
+
+
+def _groups(root: ElementTree.Element, enums: dict[str, str]) -> dict[str, list[str]]:
+    """The registry's groups of constants; of several names for one value the first."""
+    groups: dict[str, dict[str, str]] = {}
+    for element in root.findall("enums/enum"):
+        name = element.get("name")
+        for group in (element.get("group") or "").split(","):
+            if group and name in enums:
+                groups.setdefault(group, {}).setdefault(enums[name], name)
+    return {group: list(names.values()) for group, names in groups.items()}
 
 
 def _command(element: ElementTree.Element, path: Path) -> Command:
