@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "session/session.h"
+#include "session/stepper.h"
 
 namespace {
 
@@ -38,8 +40,44 @@ double drawMilliseconds(session::Session& session, const session::Prepared& prog
   return Milliseconds(session.execute(program, options).times.front()).count();
 }
 
+constexpr std::size_t kWatched = 4;  // variables that a step reads back
+
+// Walks a stepper into the body of the shader's first loop, to where the most is in scope.
+bool walkIntoLoop(session::Stepper& stepper) {
+  while (!stepper.ended() && stepper.position().iterations.empty()) {
+    if (stepper.position().condition)
+      stepper.choose();
+    else
+      stepper.moveTo(stepper.navigation().over(stepper.position()));
+  }
+  session::Position last;
+  const auto inLoop = [&] { return !stepper.ended() && !stepper.position().iterations.empty(); };
+  for (int step = 0; inLoop() && stepper.position().iterations.back() == 0; ++step) {
+    if (stepper.position().condition) {
+      stepper.choose();
+      continue;
+    }
+    last = stepper.position();
+    stepper.moveTo(stepper.navigation().over(last));
+  }
+  if (!last.ended()) stepper.moveTo(last);
+  return !last.ended();
+}
+
+// The variables declared last before the position.
+std::vector<std::string> watchesAt(const session::Stepper& stepper) {
+  const frontend::Shader& shader = stepper.shader();
+  std::vector<std::string> names;
+  const auto& scope = shader.statements[static_cast<std::size_t>(stepper.position().statement)].scope;
+  for (auto id = scope.rbegin(); id != scope.rend() && names.size() < kWatched; ++id) {
+    const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(*id)];
+    if (variable.storage == frontend::Storage::local) names.push_back(variable.name);
+  }
+  return names;
+}
+
 struct Measure {
-  const char* pass;
+  std::string pass;
   std::function<double()> milliseconds;
   std::vector<double> times = {};
 };
@@ -56,6 +94,30 @@ int measure(const std::vector<std::string>& command) {
   std::vector<Measure> measures = {
       {"bare draw", [&] { return drawMilliseconds(session, original); }},
       {"one pixel's run: whole", [&] { return wallMilliseconds([&] { session.record(x, y, 1, 1); }); }}};
+
+  session::Stepper stepper(session, std::nullopt, session::Plan::window);
+  std::vector<session::Window> windows;
+  if (walkIntoLoop(stepper)) {
+    const std::vector<std::string> names = watchesAt(stepper);
+    const auto nextIteration = [&stepper] {
+      session::Position next = stepper.position();
+      ++next.iterations.back();
+      stepper.moveTo(next);
+    };
+    measures.push_back({"step in a window: whole", [&stepper, names, nextIteration] {
+                          nextIteration();
+                          return wallMilliseconds([&] { stepper.look(names); });
+                        }});
+    for (const std::size_t probes : {1, 2, 4, 8, 16}) {
+      windows.emplace_back(session,
+                           session::probesAround(stepper.shader(), stepper.position(), names, probes));
+      const std::size_t index = windows.size() - 1;
+      measures.push_back({"window of " + std::to_string(probes) + ": draw", [&, index] {
+                            windows[index].valuesAt(session::probeAt(stepper.position()));
+                            return Milliseconds(windows[index].drawTime()).count();
+                          }});
+    }
+  }
 
   const auto clock =
       instrumenter::instrumentClock(session.shader(session::Stage::fragment), session.target());
@@ -80,7 +142,7 @@ int measure(const std::vector<std::string>& command) {
   std::puts("pass,ms,ratio");
   const double bare = median(measures.front().times);
   for (const Measure& one : measures)
-    std::printf("%s,%.2f,%.2f\n", one.pass, median(one.times), median(one.times) / bare);
+    std::printf("%s,%.2f,%.2f\n", one.pass.c_str(), median(one.times), median(one.times) / bare);
   return 0;
 }
 

@@ -54,30 +54,67 @@ std::size_t sideOf(const std::vector<Side>& sides, const WatchedValues& outcome,
   return otherwise;
 }
 
+const WatchedValues* valueOf(const ThreadValues& threads, const std::string& name) {
+  const auto found = std::find_if(threads.values.begin(), threads.values.end(),
+                                  [&](const WatchedValues& value) { return value.name == name; });
+  return found == threads.values.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
-Stepper::Stepper(Session& session, std::optional<std::size_t> pixel)
-    : session_(session), shader_(session.shader(Stage::fragment)), navigation_(shader_), pixel_(pixel) {
+Stepper::Stepper(Session& session, std::optional<std::size_t> pixel, Plan plan)
+    : session_(session),
+      shader_(session.shader(Stage::fragment)),
+      navigation_(shader_),
+      pixel_(pixel),
+      plan_(plan) {
   position_ = navigation_.start();
 }
 
 void Stepper::moveTo(const Position& position) {
   position_ = position;
+  here_.reset();
   sides_.reset();
 }
 
-instrumenter::Probe Stepper::probe() const {
-  if (ended()) throw Error(Outcome::nothing_matches, "the threads have ended; start again");
-  instrumenter::Probe probe;
-  probe.when = position_.condition ? instrumenter::Probe::When::after : instrumenter::Probe::When::before;
-  probe.statement = position_.statement;
-  probe.call_path = position_.call_path;
-  probe.iterations = position_.iterations;
-  return probe;
+ThreadValues Stepper::look(const std::vector<std::string>& watches) {
+  if (!watches.empty()) watches_ = watches;
+  ThreadValues values = here(watches);
+  std::vector<WatchedValues> wanted;
+  for (const std::string& name : watches) wanted.push_back(*valueOf(values, name));
+  values.values = std::move(wanted);
+  return values;
 }
 
-ThreadValues Stepper::look(const std::vector<std::string>& watches) {
-  return valuesAt(session_, probe(), watches);
+// The values of these names, at a condition its outcome first; perhaps more.
+const ThreadValues& Stepper::here(const std::vector<std::string>& watches) {
+  if (ended()) throw Error(Outcome::nothing_matches, "the threads have ended; start again");
+  instrumenter::Probe probe = probeAt(position_);
+  probe.watches = watchesAt(shader_, probe.statement, watches);
+  const auto known = [&](const std::string& name) { return valueOf(*here_, name) != nullptr; };
+  if (here_ && std::all_of(watches.begin(), watches.end(), known)) return *here_;
+
+  const bool by_window =
+      plan_ != Plan::single && ((window_ && window_->serves(probe)) || moveWindow(watches));
+  here_ = by_window ? window_->valuesAt(probe) : valuesAt(session_, probe, watches);
+  return *here_;
+}
+
+// Compiles a window around the position, smaller ones if it does not fit. False if none does.
+bool Stepper::moveWindow(const std::vector<std::string>& watches) {
+  std::vector<std::string> names = watches;
+  for (const std::string& name : watches_)
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  window_.reset();
+  for (std::size_t most = kWindowProbes; most > 0; most /= 2) {
+    try {
+      window_.emplace(session_, probesAround(shader_, position_, names, most));
+      return true;
+    } catch (const Error& error) {
+      if (error.outcome() != Outcome::cannot_debug || (most == 1 && plan_ == Plan::window)) throw;
+    }
+  }
+  return false;
 }
 
 const std::vector<TakenSide>& Stepper::sides() {
@@ -85,9 +122,7 @@ const std::vector<TakenSide>& Stepper::sides() {
   const std::vector<Side> sides = navigation_.sides(position_);
   if (sides.empty()) return sides_.emplace();
 
-  instrumenter::Probe at_branch = probe();
-  at_branch.outcome = true;
-  const ThreadValues threads = valuesAt(session_, at_branch, {});
+  const ThreadValues& threads = here({});
   const WatchedValues& outcome = threads.values.front();
   const int line = shader_.statements[static_cast<std::size_t>(position_.statement)].place.line;
   std::vector<TakenSide> ways;

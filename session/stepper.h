@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "session/navigation.h"
+#include "session/plan.h"
 #include "session/thread_values.h"
+#include "session/window.h"
 
 namespace shadestep::session {
 
@@ -23,7 +25,9 @@ class Stepper {
  public:
   // At the start of main of the current draw's fragment shader. `pixel` (index into the target) picks the
   // thread whose way is followed where no side is chosen; without one, the way that most threads take.
-  explicit Stepper(Session&, std::optional<std::size_t> pixel = std::nullopt);
+  // By the automatic plan, a window moves along with the position, and steps inside of it cost no
+  // compilation.
+  explicit Stepper(Session&, std::optional<std::size_t> pixel = std::nullopt, Plan plan = Plan::automatic);
 
   const frontend::Shader& shader() const { return shader_; }
   const Navigation& navigation() const { return navigation_; }
@@ -31,8 +35,8 @@ class Stepper {
   bool ended() const { return position_.ended(); }
 
   void moveTo(const Position&);
-  // Values of variables in scope, of all threads that are at the position. One redraw (more for many
-  // watches).
+  // Values of variables in scope, of all threads that are at the position. One redraw (more for more watches
+  // than one draw holds); none for what was looked at here before.
   ThreadValues look(const std::vector<std::string>& watches);
   // At a branch (position().condition): its sides with the threads that take them; empty elsewhere.
   const std::vector<TakenSide>& sides();
@@ -41,13 +45,18 @@ class Stepper {
   void choose(const std::string& name = {});
 
  private:
-  instrumenter::Probe probe() const;
+  const ThreadValues& here(const std::vector<std::string>& watches);
+  bool moveWindow(const std::vector<std::string>& watches);
 
   Session& session_;
   const frontend::Shader& shader_;
   Navigation navigation_;
   Position position_;
   std::optional<std::size_t> pixel_;
+  Plan plan_;
+  std::optional<Window> window_;
+  std::vector<std::string> watches_;             // last asked for: what the next window watches too
+  std::optional<ThreadValues> here_;             // what is known of the current position
   std::optional<std::vector<TakenSide>> sides_;  // of the current position, once asked for
 };
 

@@ -103,18 +103,64 @@ ThreadValues valuesAt(Session& session, const PlaceSelection& place,
   return valuesAt(session, probeAt(session.shader(Stage::fragment), place), watches);
 }
 
-ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {
-  const Shader& shader = session.shader(Stage::fragment);
-  probe.watches.clear();
-  for (const std::string& text : watches) {
-    frontend::WatchResult resolved = frontend::resolveWatch(shader, probe.statement, text);
+std::vector<frontend::Watch> watchesAt(const Shader& shader, StatementId statement,
+                                       const std::vector<std::string>& names) {
+  std::vector<frontend::Watch> watches;
+  for (const std::string& text : names) {
+    frontend::WatchResult resolved = frontend::resolveWatch(shader, statement, text);
     if (!resolved.watch) throw Error(Outcome::nothing_matches, resolved.error);
     if (frontend::wordCount(resolved.watch->type) == 0) {
       throw Error(Outcome::nothing_matches, "'" + text + "' is a " + glslName(resolved.watch->type) +
                                                 ", which holds no value to print");
     }
-    probe.watches.push_back(std::move(*resolved.watch));
+    watches.push_back(std::move(*resolved.watch));
   }
+  return watches;
+}
+
+void addPass(ThreadValues& result, const ThreadWords& threads, const instrumenter::AttachmentLayout& layout,
+             const Check& check) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(threads.height);
+  const auto stride = static_cast<std::size_t>(layout.words);
+  const bool first = result.marks.empty();
+  if (first) {
+    result.width = threads.width;
+    result.height = threads.height;
+    result.marks.resize(pixels);
+    result.check = check;
+  } else {
+    result.check.merge(check);
+  }
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const auto mark =
+        static_cast<std::uint8_t>(instrumenter::decodeMark(layout, threads.data.data() + p * stride));
+    if (!first && mark != result.marks[p]) {
+      throw Error(Outcome::failed,
+                  "two passes of one probe disagree about which threads got there; "
+                  "the draw does not repeat exactly, so its values cannot be trusted");
+    }
+    result.marks[p] = mark;
+    if (!first) continue;
+    result.launched += mark != 0 ? 1 : 0;
+    result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
+  }
+  for (const instrumenter::Field& field : layout.fields) {
+    const std::vector<frontend::Component> components = frontend::components(field.type);
+    WatchedValues values{
+        field.name, field.type, static_cast<std::size_t>(frontend::wordCount(field.type)), {}};
+    values.words.assign(pixels * values.stride, 0);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      if (!result.reachedAt(p)) continue;
+      instrumenter::decodeInto(layout, field, components, threads.data.data() + p * stride,
+                               values.words.data() + p * values.stride);
+    }
+    result.values.push_back(std::move(values));
+  }
+}
+
+ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {
+  probe.watches = watchesAt(session.shader(Stage::fragment), probe.statement, watches);
   return valuesAt(session, std::move(probe));
 }
 
@@ -141,49 +187,10 @@ ThreadValues valuesAt(Session& session, Probe probe) {
                                              " draw buffers hold (GL_MAX_DRAW_BUFFERS); print a part of it");
     }
 
-    const std::size_t pixels =
-        static_cast<std::size_t>(captured.threads.width) * static_cast<std::size_t>(captured.threads.height);
-    const bool repeated = !result.marks.empty();
-    if (!repeated) {
-      result.width = captured.threads.width;
-      result.height = captured.threads.height;
-      result.marks.resize(pixels);
-      result.check = captured.execution.check;
-    } else {
-      result.check.merge(captured.execution.check);
-    }
-    const std::size_t stride = static_cast<std::size_t>(captured.layout.words);
-    for (std::size_t p = 0; p < pixels; ++p) {
-      const auto mark = static_cast<std::uint8_t>(
-          instrumenter::decodeMark(captured.layout, captured.threads.data.data() + p * stride));
-      if (repeated && mark != result.marks[p]) {
-        throw Error(Outcome::failed,
-                    "two passes of one probe disagree about which threads got there; "
-                    "the draw does not repeat exactly, so its values cannot be trusted");
-      }
-      result.marks[p] = mark;
-    }
-    for (const instrumenter::Field& field : captured.layout.fields) {
-      WatchedValues values{
-          field.name, field.type, static_cast<std::size_t>(frontend::wordCount(field.type)), {}};
-      values.words.assign(pixels * values.stride, 0);
-      for (std::size_t p = 0; p < pixels; ++p) {
-        if (!result.reachedAt(p)) continue;
-        const instrumenter::Value value =
-            instrumenter::decode(captured.layout, field, captured.threads.data.data() + p * stride);
-        std::copy(value.words.begin(), value.words.end(),
-                  values.words.begin() + static_cast<std::ptrdiff_t>(p * values.stride));
-      }
-      result.values.push_back(std::move(values));
-    }
+    addPass(result, captured.threads, captured.layout, captured.execution.check);
     done += watched;
     probe.outcome = false;  // the first pass has it
   } while (done < wanted.size());
-
-  for (const std::uint8_t mark : result.marks) {
-    result.launched += mark != 0 ? 1 : 0;
-    result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
-  }
   return result;
 }
 

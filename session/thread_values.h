@@ -50,6 +50,14 @@ ThreadValues valuesAt(Session&, const PlaceSelection&, const std::vector<std::st
 ThreadValues valuesAt(Session&, instrumenter::Probe, const std::vector<std::string>& watches);
 ThreadValues valuesAt(Session&, instrumenter::Probe);
 
+// What the names mean at a statement. Throws nothing_matches for what is not in scope or holds no value.
+std::vector<frontend::Watch> watchesAt(const frontend::Shader&, frontend::StatementId,
+                                       const std::vector<std::string>& names);
+
+// Takes in one pass over a place: its marks, which must be those of the passes before, its fields and its
+// check.
+void addPass(ThreadValues&, const ThreadWords&, const instrumenter::AttachmentLayout&, const Check&);
+
 // The statement and call path that a selection means. Throws nothing_matches.
 instrumenter::Probe probeAt(const frontend::Shader&, const PlaceSelection&);
 

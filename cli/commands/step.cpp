@@ -16,6 +16,7 @@ using session::Stepper;
 
 struct Options {
   std::string pixel;
+  std::string plan = "auto";
 };
 
 constexpr const char* kHelp =
@@ -34,8 +35,8 @@ constexpr const char* kHelp =
 
 class Dialogue {
  public:
-  Dialogue(session::Session& session, std::optional<std::size_t> pixel)
-      : stepper_(session, pixel), pixel_(pixel) {}
+  Dialogue(session::Session& session, std::optional<std::size_t> pixel, session::Plan plan)
+      : stepper_(session, pixel, plan), pixel_(pixel) {}
 
   void run() {
     const bool prompt = isatty(STDIN_FILENO) != 0;
@@ -191,12 +192,13 @@ int run(const Common& common, const Options& options) {
     throw session::Error(session::Outcome::usage,
                          "step talks to a person; 'debug --json' has the same values in JSON");
   }
+  const std::optional<session::Plan> plan = session::planByName(options.plan);
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   session.requireCapturable();
   std::optional<std::size_t> pixel;
   if (!options.pixel.empty()) pixel = pixelIndex(session, options.pixel);
-  Dialogue(session, pixel).run();
+  Dialogue(session, pixel, plan.value_or(session::Plan::automatic)).run();
   return 0;
 }
 
@@ -211,6 +213,10 @@ void addStep(CLI::App& app, Common& common, Action& action) {
   command
       ->add_option("--pixel", options->pixel, "the picked thread: its values are shown, its side is followed")
       ->type_name("X,Y");
+  command
+      ->add_option("--plan", options->plan,
+                   "single: one compilation per step; window: one for the steps around; auto: what fits")
+      ->check(CLI::IsMember({"auto", "single", "window"}));
   command->footer(kHelp);
   command->callback(
       [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });

@@ -1,0 +1,107 @@
+#include "session/window.h"
+
+#include <algorithm>
+#include <deque>
+
+namespace shadestep::session {
+
+using instrumenter::Probe;
+
+namespace {
+
+constexpr std::uint32_t kInt = 0x1404;  // GL_INT
+
+bool samePlace(const Probe& a, const Probe& b) {
+  return a.statement == b.statement && a.when == b.when && a.call_path == b.call_path &&
+         a.iterations.size() == b.iterations.size();
+}
+
+bool captures(const Probe& probe, const Probe& wanted) {
+  const auto watched = [&](const frontend::Watch& watch) {
+    return std::any_of(probe.watches.begin(), probe.watches.end(),
+                       [&](const frontend::Watch& one) { return one.expression == watch.expression; });
+  };
+  return (probe.outcome || !wanted.outcome) &&
+         std::all_of(wanted.watches.begin(), wanted.watches.end(), watched);
+}
+
+instrumenter::WindowShader instrumented(Session& session, const std::vector<Probe>& probes) {
+  auto result = instrumenter::instrumentWindow(session.shader(Stage::fragment), probes, session.target());
+  if (const auto* failure = std::get_if<instrumenter::Failure>(&result))
+    throw Error(Outcome::cannot_debug, failure->reason);
+  return std::get<instrumenter::WindowShader>(std::move(result));
+}
+
+}  // namespace
+
+Window::Window(Session& session, std::vector<Probe> probes) : session_(session), probes_(std::move(probes)) {
+  instrumenter::WindowShader shader = instrumented(session, probes_);
+  layout_ = std::move(shader.layout);
+  prepared_ = session.prepare(instrumenter::AttachmentShader{std::move(shader.text), layout_.capture});
+}
+
+std::size_t Window::find(const Probe& wanted) const {
+  const auto found = std::find_if(probes_.begin(), probes_.end(), [&](const Probe& probe) {
+    return samePlace(probe, wanted) && captures(probe, wanted);
+  });
+  return static_cast<std::size_t>(found - probes_.begin());
+}
+
+bool Window::serves(const Probe& wanted) const {
+  return find(wanted) < probes_.size();
+}
+
+ThreadValues Window::valuesAt(const Probe& wanted) {
+  const std::size_t chosen = find(wanted);
+  ExecuteOptions options;
+  options.uniforms.push_back({layout_.probe_uniform, kInt, {static_cast<std::uint32_t>(chosen)}});
+  for (std::size_t i = 0; i < wanted.iterations.size(); ++i)
+    options.uniforms.push_back(
+        {layout_.iteration_uniforms[i], kInt, {static_cast<std::uint32_t>(wanted.iterations[i])}});
+  const Execution execution = session_.execute(prepared_, options);
+  if (!execution.times.empty()) draw_time_ = execution.times.front();
+
+  const instrumenter::AttachmentLayout& layout = layout_.probes[chosen];
+  ThreadValues values;
+  values.statement = wanted.statement;
+  addPass(values, joinAttachments(execution, layout.words), layout, execution.check);
+  return values;
+}
+
+Probe probeAt(const Position& position) {
+  Probe probe;
+  probe.when = position.condition ? Probe::When::after : Probe::When::before;
+  probe.outcome = position.condition;
+  probe.statement = position.statement;
+  probe.call_path = position.call_path;
+  probe.iterations = position.iterations;
+  return probe;
+}
+
+std::vector<Probe> probesAround(const frontend::Shader& shader, const Position& from,
+                                const std::vector<std::string>& watches, std::size_t most) {
+  const Navigation navigation(shader);
+  std::vector<Probe> probes;
+  std::deque<Position> ahead = {from};
+  while (!ahead.empty() && probes.size() < most) {
+    const Position position = std::move(ahead.front());
+    ahead.pop_front();
+    if (position.ended()) continue;
+    Probe probe = probeAt(position);
+    const auto same = [&](const Probe& known) { return samePlace(known, probe); };
+    if (std::any_of(probes.begin(), probes.end(), same)) continue;
+    for (const std::string& name : watches) {
+      frontend::WatchResult found = frontend::resolveWatch(shader, probe.statement, name);
+      if (found.watch && frontend::wordCount(found.watch->type) > 0)
+        probe.watches.push_back(std::move(*found.watch));
+    }
+    probes.push_back(std::move(probe));
+    for (const Side& side : navigation.sides(position)) ahead.push_back(side.next);
+    if (position.condition) continue;
+    ahead.push_back(navigation.over(position));
+    ahead.push_back(navigation.into(position));
+  }
+  return probes;
+}
+
+}  // namespace shadestep::session

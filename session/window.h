@@ -1,0 +1,47 @@
+// Probes compiled once and chosen by uniforms: values at any of them, in any iteration, for one draw.
+#pragma once
+
+#include <vector>
+
+#include "session/navigation.h"
+#include "session/thread_values.h"
+
+namespace shadestep::session {
+
+// More probes make more steps free of compilation, and every draw slower where the driver runs through what
+// no thread takes (llvmpipe does): see docs/performance.md.
+inline constexpr std::size_t kWindowProbes = 8;
+
+class Window {
+ public:
+  // Serves the draw that the session stands at, and no longer. Throws cannot_debug if the text does not fit.
+  Window(Session&, std::vector<instrumenter::Probe>);
+
+  // Is there a probe at this place that captures all that this one does? Its iterations' values do not
+  // matter.
+  bool serves(const instrumenter::Probe&) const;
+  // All values of that probe, one draw. Assumes that it `serves` it.
+  ThreadValues valuesAt(const instrumenter::Probe&);
+
+  std::chrono::nanoseconds compileTime() const { return prepared_.compile_time; }
+  std::chrono::nanoseconds drawTime() const { return draw_time_; }  // of the last draw
+
+ private:
+  std::size_t find(const instrumenter::Probe&) const;
+
+  Session& session_;
+  std::vector<instrumenter::Probe> probes_;
+  instrumenter::WindowLayout layout_;
+  Prepared prepared_;
+  std::chrono::nanoseconds draw_time_{0};
+};
+
+// What is captured at a position: before its statement, or after its condition with the outcome.
+instrumenter::Probe probeAt(const Position&);
+
+// The probes that a walk from this position meets first, its own included, both sides of branches and called
+// functions too; nearest first. What is in scope there of the names is watched.
+std::vector<instrumenter::Probe> probesAround(const frontend::Shader&, const Position&,
+                                              const std::vector<std::string>& watches, std::size_t most);
+
+}  // namespace shadestep::session
