@@ -235,11 +235,6 @@ class DrawCheck {
     return first.check.differing == 0;
   }
 
-  static bool sameBits(const std::vector<ColorOutput>& a, const std::vector<ColorOutput>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const ColorOutput& x, const ColorOutput& y) { return x.words == y.words; });
-  }
-
   // ---- which pixels
   // ----------------------------------------------------------------------------------------
 
@@ -487,6 +482,23 @@ void Verifier::addCrash(const std::string& detail) {
   failure.kind = Kind::crash;
   failure.detail = detail;
   report_.failures.push_back(std::move(failure));
+}
+
+std::optional<std::vector<ColorOutput>> drawnHere(Session& session) {
+  try {
+    ExecuteOptions options;
+    options.compare = false;
+    options.read_outputs = true;
+    return session.execute(session.prepareOriginal(), options).outputs;
+  } catch (const Error& error) {
+    if (error.outcome() != Outcome::cannot_debug && error.outcome() != Outcome::nothing_matches) throw;
+    return std::nullopt;
+  }
+}
+
+bool sameBits(const std::vector<ColorOutput>& a, const std::vector<ColorOutput>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const ColorOutput& x, const ColorOutput& y) { return x.words == y.words; });
 }
 
 const char* kindName(VerifyFailure::Kind kind) {

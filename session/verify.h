@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -67,6 +68,11 @@ class Verifier {
   std::map<std::pair<std::uint32_t, std::string>, int> seen_;  // program, text -> draws
   std::set<std::string> texts_;
 };
+
+// The program's own colour outputs after the draw at which the session stands, hence of all draws before it
+// into the same target. Nothing if they cannot be read.
+std::optional<std::vector<ColorOutput>> drawnHere(Session&);
+bool sameBits(const std::vector<ColorOutput>&, const std::vector<ColorOutput>&);
 
 const char* kindName(VerifyFailure::Kind);  // "compile", "output", ...
 

@@ -14,6 +14,7 @@ struct Options {
   std::string frames;
   long long draw = -1;  // -1: all
   bool keep_running = false;
+  bool twice = false;
   session::VerifyOptions verify;
 };
 
@@ -43,7 +44,6 @@ Json toJson(const session::VerifyReport& report) {
   json["value_mismatch"] = report.value_mismatch;
   json["state_leaks"] = report.state_leaks;
   json["crashes"] = report.crashes;
-  json["program_output_identical"] = nullptr;
   json["skipped"] = Json::array();
   for (const auto& [reason, count] : report.skipped) {
     json["skipped"].push_back({{"reason", reason}, {"count", count}});
@@ -88,6 +88,22 @@ std::pair<std::uint64_t, std::uint64_t> frameRange(std::string range) {
   return {static_cast<std::uint64_t>(numbers.front()), static_cast<std::uint64_t>(numbers.back())};
 }
 
+// What the program's target held at the last draw that was looked at.
+struct LastDraw {
+  session::DrawStop stop;
+  std::optional<std::vector<session::ColorOutput>> outputs;
+};
+
+// Runs the program once more, stops at that draw only, and compares. Null if there is nothing to compare.
+Json sameWithoutUs(const Common& common, const LastDraw& last) {
+  if (!last.outputs) return nullptr;
+  session::Session untouched(common.launchOptions());
+  untouched.runTo(last.stop.frame, last.stop.draw);
+  const auto outputs = session::drawnHere(untouched);
+  if (!outputs) return nullptr;
+  return session::sameBits(*last.outputs, *outputs);
+}
+
 int run(const Common& common, const Options& options) {
   const auto [first, last] =
       options.frames.empty() ? std::pair(common.frame, common.frame) : frameRange(options.frames);
@@ -95,29 +111,36 @@ int run(const Common& common, const Options& options) {
   session::Session session(common.launchOptions());
   session::Verifier verifier(session, options.verify);
   int status = 0;
+  std::optional<LastDraw> last_draw;
   try {
     session.forEachDraw(first, last, [&](const session::DrawStop& stop) {
       if (options.draw >= 0 && stop.draw != static_cast<std::uint64_t>(options.draw)) return;
       verifier.verifyDraw();
+      if (options.twice) last_draw = LastDraw{stop, session::drawnHere(session)};
     });
     if (options.keep_running) status = session.runToEnd();
   } catch (const session::Error& error) {
     if (verifier.report().draws == 0) throw;
     verifier.addCrash(error.what());
   }
+  const Json identical = last_draw ? sameWithoutUs(common, *last_draw) : Json(nullptr);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
   const session::VerifyReport& report = verifier.report();
   if (common.json) {
     Json json = toJson(report);
+    json["program_output_identical"] = identical;
     json["program_status"] = options.keep_running ? Json(status) : Json(nullptr);
     json["seconds"] = seconds.count();
     print(json);
   } else {
     printText(report, seconds.count());
+    if (!identical.is_null())
+      std::cout << "  the program draws the same without it     " << (identical == Json(true) ? "yes" : "NO")
+                << "\n";
   }
   if (!common.quiet) printFailures(report);
-  return report.passed() ? 0 : static_cast<int>(session::Outcome::failed);
+  return report.passed() && identical != Json(false) ? 0 : static_cast<int>(session::Outcome::failed);
 }
 
 }  // namespace
@@ -147,6 +170,8 @@ void addVerify(CLI::App& app, Common& common, Action& action) {
       ->type_name("S")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command->add_flag("--twice", options->twice,
+                    "run the program once more without looking at its draws, and compare what it has drawn");
   command->add_flag("--continue", options->keep_running, "then let the program run to its own end");
   command->callback(
       [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });

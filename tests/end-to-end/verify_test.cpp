@@ -1,0 +1,57 @@
+// The command verify, on programs whose shaders have loops, discards, several outputs and several draws.
+#include <gtest/gtest.h>
+
+#include "launch.h"
+
+namespace shadestep::test {
+namespace {
+
+void expectNothingWrong(const Json& report) {
+  for (const char* name :
+       {"analysis_failed", "compile_failed", "output_mismatch", "value_mismatch", "state_leaks", "crashes"}) {
+    EXPECT_EQ(report.at(name), 0) << name << "\n" << report.dump(1);
+  }
+  EXPECT_TRUE(report.at("failures").empty());
+}
+
+TEST(Verify, FindsNothingWrongWithTheRaycaster) {
+  const Scratch scratch;
+  const Finished finished = scratch.shadestep({"verify", "--json", "--twice"},
+                                              {binary("raycaster"), "--size", "24", "--step", "0.1"});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  const Json report = finished.json();
+  expectNothingWrong(report);
+  EXPECT_EQ(report.at("draws"), 1);
+  EXPECT_EQ(report.at("shaders"), 1);
+  EXPECT_GT(report.at("sites"), 20);
+  EXPECT_GT(report.at("passes"), report.at("sites")) << "before and after";
+  EXPECT_GT(report.at("values_compared"), 1000);
+  EXPECT_EQ(report.at("program_output_identical"), true);
+  EXPECT_TRUE(report.at("skipped").empty()) << report.dump(1);
+}
+
+TEST(Verify, LetsTheProgramRunToItsEndAndTellsItsStatus) {
+  for (const char* name : {"programs/several-draws", "programs/discard", "programs/two-outputs"}) {
+    const Scratch scratch;
+    const Finished finished =
+        scratch.shadestep({"verify", "--json", "--continue", "--draws-per-shader", "9"}, {binary(name)});
+    EXPECT_EQ(finished.status, 0) << finished.command << "\n" << finished.err;
+    const Json report = finished.json();
+    expectNothingWrong(report);
+    EXPECT_EQ(report.at("program_status"), 0) << name;
+    EXPECT_GT(report.at("values_compared"), 0) << name;
+  }
+}
+
+TEST(Verify, SaysWhyADrawIsLeftOut) {
+  const Scratch scratch;
+  const Finished finished = scratch.shadestep({"verify", "--json"}, {binary("programs/fixed-function")});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  const Json report = finished.json();
+  EXPECT_EQ(report.at("shaders"), 0);
+  ASSERT_FALSE(report.at("skipped").empty());
+  EXPECT_FALSE(report.at("skipped")[0].at("reason").get<std::string>().empty());
+}
+
+}  // namespace
+}  // namespace shadestep::test
