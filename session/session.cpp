@@ -469,6 +469,7 @@ Prepared Session::prepareOriginal() {
   requireCapturable();
   wire::PrepareT prepare;
   prepare.stage = wire::Stage::Fragment;
+  prepare.user_outputs = outputNames(shader(Stage::fragment));  // their places are the program's choice
   const auto [reply, bulk] = state_->ask<wire::PreparedT>(std::move(prepare));
   return Prepared(this, reply.handle);
 }
