@@ -80,6 +80,11 @@ def problems(entry: dict) -> list[str]:
     return found
 
 
+def left_open(entry: dict) -> bool:
+    """Whether GLSL leaves open what the test draws; a reason "open: ..." says that nobody knows yet."""
+    return bool(entry["undefined"]) and not entry["undefined"].startswith("open:")
+
+
 def table(entries: list[dict]) -> str:
     """A row a directory, as Markdown."""
     header = ["directory", "tests", "driver skips", "draws", "shaders", "analysable", "sites", "values compared",
@@ -102,7 +107,7 @@ def table(entries: list[dict]) -> str:
             row["sites"] += report["sites"]
             row["values compared"] += report["values_compared"]
             for column, key in zip(header[8:13], FAILURES):
-                excused = entry["undefined"] and key in ("output_mismatch", "value_mismatch")
+                excused = left_open(entry) and key in ("output_mismatch", "value_mismatch")
                 row["left open by GLSL" if excused else column] += report[key]
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
     for name in sorted(rows, key=lambda one: (one == "all", one)):
