@@ -136,13 +136,18 @@ Json toJson(const session::Check& check) {
   json["outputs"] = !check.compared_at_all ? "not compared" : check.identical() ? "identical" : "differ";
   json["compared"] = check.compared;
   json["differing"] = check.differing;
+  json["undefined"] = check.undefined;
   json["reason"] = check.reason.empty() ? Json(nullptr) : Json(check.reason);
   json["left_out"] = check.left_out.empty() ? Json(nullptr) : Json(check.left_out);
   return json;
 }
 
 std::string describe(const session::Check& check) {
-  const std::string left_out = check.left_out.empty() ? "" : "\nnote: " + check.left_out;
+  std::string left_out = check.left_out.empty() ? "" : "\nnote: " + check.left_out;
+  if (check.undefined > 0) {
+    left_out += "\nnote: the shader leaves " + withThousands(check.undefined) +
+                " more components of its outputs unwritten, hence undefined: they are not compared";
+  }
   if (!check.compared_at_all) return "outputs not compared: " + check.reason + left_out;
   if (check.identical()) {
     return "outputs identical to the uninstrumented draw (" + withThousands(check.compared) + " components)" +

@@ -196,6 +196,10 @@ Result<IsolatedShader> instrumentIsolate(const frontend::Shader&, const Target&)
 // A probe at the start of main that watches the inputs which instrumentIsolate replaces (none, if that fails).
 Probe inputsProbe(const frontend::Shader&);
 
+// The user's shader with every colour output set to `fill` before main. Where what it draws depends on `fill`, it
+// leaves an output undefined. Nothing else is changed and nothing captured.
+Result<std::string> instrumentFilledOutputs(const frontend::Shader&, const Target&, float fill);
+
 // The user's tokens, emitted with nothing inserted: the round trip.
 std::string uninstrumented(const frontend::Shader&);
 

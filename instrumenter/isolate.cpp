@@ -5,8 +5,6 @@
 
 namespace shadestep::instrumenter {
 
-using frontend::Basic;
-using frontend::Component;
 using frontend::Shader;
 using frontend::Token;
 using frontend::TokenKind;
@@ -33,18 +31,13 @@ std::string leadingDirectives(const Shader& shader) {
 // The same outputs, written with constants.
 std::string baseline(const Shader& shader, const Target& target) {
   const bool es = isEs(shader);
-  std::string declarations, assignments;
+  std::string declarations;
+  std::string assignments = assignOutputs(shader, "0");
   for (std::size_t i = 0; i < shader.outputs.size(); ++i) {
     const Variable& output = shader.variables[static_cast<std::size_t>(shader.outputs[i])];
     if (es) declarations += "layout(location = " + std::to_string(i) + ") ";
     declarations += std::string("out ") + (es ? "highp " : "") + frontend::glslName(output.type) + " " +
                     output.name + ";\n";
-    for (const Component& component : frontend::components(output.type)) {
-      const char* type = component.basic == Basic::int_    ? "int"
-                         : component.basic == Basic::uint_ ? "uint"
-                                                           : "float";
-      assignments += "  " + output.name + component.access + " = " + type + "(0);\n";
-    }
   }
   if (writesFragData(shader))
     for (int i = 0; i < target.used_draw_buffers; ++i)

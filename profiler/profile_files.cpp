@@ -33,6 +33,7 @@ Json checkOf(const session::Check& check) {
                                              : "differ"},
           {"compared", check.compared},
           {"differing", check.differing},
+          {"undefined", check.undefined},
           {"reason", check.reason.empty() ? Json(nullptr) : Json(check.reason)}};
 }
 

@@ -18,6 +18,10 @@
 #include "instrumenter/instrumenter.h"
 #include "session/error.h"
 
+namespace shadestep::wire {
+struct PrepareT;
+}
+
 namespace shadestep::session {
 
 using frontend::Stage;
@@ -75,7 +79,9 @@ struct Check {
   bool compared_at_all = false;
   std::uint64_t compared = 0;  // components
   std::uint64_t differing = 0;
-  std::string reason;    // why not compared
+  std::string reason;  // why not compared
+  std::uint64_t undefined =
+      0;  // components not counted above: the shader leaves them undefined (it writes no value)
   std::string left_out;  // which threads of the draw the values do not cover ("" = none), for the user
   bool identical() const { return compared_at_all && differing == 0; }
   // "identical", "differs", "not compared"
@@ -100,6 +106,7 @@ class Prepared {
   ~Prepared();
   std::uint32_t handle() const { return handle_; }
   std::chrono::nanoseconds compile_time{0};
+  std::vector<int> output_locations;  // of the shader's declared outputs, as far as the program writes them
 
  private:
   Session* session_ = nullptr;
@@ -191,6 +198,8 @@ class Session {
   Prepared prepare(const instrumenter::AttachmentShader&);
   Prepared prepare(const instrumenter::RecordingShader&);
   Prepared prepareOriginal();  // the program's own text
+  Prepared prepareText(
+      const std::string& fragment_text);  // another text with the same outputs, without captures
   Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);  // isolate
   Execution execute(const Prepared&, const ExecuteOptions& = {});
   // prepare + execute + join the attachments per pixel.
@@ -213,6 +222,8 @@ class Session {
   void release(std::uint32_t handle) noexcept;  // by ~Prepared
 
  private:
+  Prepared send(wire::PrepareT&&);
+  void leaveOutUndefined(const Prepared&, const ExecuteOptions&, std::uint64_t unstable, Check&);
   struct State;
   std::unique_ptr<State> state_;
 };

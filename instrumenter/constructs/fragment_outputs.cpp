@@ -25,6 +25,20 @@ bool writesFragData(const frontend::Shader& shader) {
   return mentions(shader, kFragColor) || mentions(shader, "gl_FragData");
 }
 
+std::string assignOutputs(const frontend::Shader& shader, std::string_view value) {
+  std::string text;
+  for (const frontend::VariableId id : shader.outputs) {
+    const frontend::Variable& output = shader.variables[static_cast<std::size_t>(id)];
+    for (const frontend::Component& component : frontend::components(output.type)) {
+      const char* type = component.basic == frontend::Basic::int_    ? "int"
+                         : component.basic == frontend::Basic::uint_ ? "uint"
+                                                                     : "float";
+      text += "  " + output.name + component.access + " = " + type + "(" + std::string(value) + ");\n";
+    }
+  }
+  return text;
+}
+
 void replaceFragColor(Draft& draft) {
   const std::vector<Token>& tokens = draft.shader().tokens;
   for (std::size_t i = 0; i < tokens.size(); ++i)

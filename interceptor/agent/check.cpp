@@ -57,10 +57,13 @@ Refusal Check::compare(const capture::Shadow& shadow, const guard::WritableMemor
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (unstable[i] != 0) {
       names += (names.empty() ? "" : ", ") + sections[i].name;
+      executed.unstable += sections[i].components;
+      if (!sections[i].color) executed.outside_colors += sections[i].components;
       continue;
     }
     executed.compared += sections[i].components;
     executed.differing += differing[i];
+    if (!sections[i].color) executed.outside_colors += differing[i];
   }
   if (!names.empty() && executed.differing == 0) {
     executed.compare_reason = "two draws of the program's own shader differ from each other in " + names +

@@ -206,6 +206,7 @@ OrRefusal<wire::PreparedT> Stop::prepare(const wire::PrepareT& request) {
   prepared.handle = next_handle_++;
   prepared.log = copy->log;
   prepared.compile_ns = copy->compile_ns;
+  prepared.output_locations.assign(copy->output_locations.begin(), copy->output_locations.end());
   prepared_[prepared.handle] = std::move(copy);
   return prepared;
 }

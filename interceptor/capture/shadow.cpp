@@ -199,7 +199,7 @@ std::vector<guard::Section> Shadow::sections() const {
   for (const ColorBuffer& color : target_.colors) {
     // Components that the format lacks read as constants: they never differ, and are not counted.
     result.push_back({"draw buffer " + std::to_string(color.draw_buffer), pixels() * 16, 4,
-                      pixels() * static_cast<std::size_t>(color.format.components())});
+                      pixels() * static_cast<std::size_t>(color.format.components()), true});
   }
   if (facts_.es) return result;
   if (target_.depth_stencil.depth_bits > 0) result.push_back({"the depth buffer", pixels() * 4, 4, pixels()});

@@ -15,6 +15,7 @@ struct Section {
   std::size_t bytes = 0;
   std::size_t word = 4;          // bytes that make one component
   std::uint64_t components = 0;  // that count: what a format lacks is read as constants
+  bool color = false;            // a colour buffer of the draw
 };
 
 std::size_t totalBytes(const std::vector<Section>&);

@@ -262,6 +262,7 @@ Refusal bindOutputs(const guard::ContextFacts& facts, const Original& original, 
   auto captures = bindCaptures(facts, original.target, request, copy.program, taken);
   if (auto* refusal = std::get_if<Refusal>(&captures)) return *refusal;
   copy.captures = std::get<std::vector<capture::CaptureBuffer>>(std::move(captures));
+  copy.output_locations = taken;
   return {};
 }
 

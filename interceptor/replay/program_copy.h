@@ -43,7 +43,8 @@ struct ProgramCopy {
 
   GLuint program = 0;
   bool covering = false;
-  int colour_outputs = 0;       // with covering: colour buffers that its target needs
+  std::set<int> output_locations;  // of the program's own outputs
+  int colour_outputs = 0;          // with covering: colour buffers that its target needs
   int position_attribute = -1;  // with covering: location of the attribute to feed, -1 = none
   std::vector<capture::CaptureBuffer> captures;  // in the order of Prepare.captures
   int storage_binding = -1;                      // -1 = no storage block alive

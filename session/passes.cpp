@@ -1,0 +1,368 @@
+// Capture passes at the draw at which the program stands.
+#include <algorithm>
+#include <cstring>
+
+#include "session/session_state.h"
+
+namespace shadestep::session {
+namespace {
+
+constexpr std::uint32_t kFirstRoomPerThread = 1 << 16;  // words a recorded thread may write at the first try
+constexpr std::uint32_t kThreadsPerPixel = 16;          // fragments expected at most on one pixel, first try
+constexpr std::uint64_t kMostRecordingWords = 1ull << 28;  // 1 GiB
+
+}  // namespace
+
+void raise(const wire::FailedT& failed) {
+  switch (failed.kind) {
+    case wire::ErrorKind::Compile:
+      throw DriverRefusal("the driver refused the instrumented shader: ", failed.text);
+    case wire::ErrorKind::Link:
+      throw DriverRefusal("the driver could not link the instrumented program: ", failed.text);
+    default:
+      throw Error(Outcome::cannot_debug, failed.text);
+  }
+}
+
+void Check::merge(const Check& other) {
+  const bool fresh = !compared_at_all && reason.empty();
+  if (fresh) {
+    *this = other;
+    return;
+  }
+  if (!other.compared_at_all && compared_at_all) reason = other.reason;
+  compared_at_all = compared_at_all && other.compared_at_all;
+  undefined = std::max(undefined, other.undefined);
+  compared = std::max(compared, other.compared);
+  differing = std::max(differing, other.differing);
+}
+
+std::uint32_t glUniformType(const frontend::Type& type) {
+  using frontend::Basic;
+  if (type.isArray() || type.rows > 4 || type.columns > 4) return 0;
+  if (type.isMatrix()) {
+    if (type.basic != Basic::float_) return 0;
+    static constexpr std::uint32_t kMatrices[3][3] = {
+        {0x8B5A, 0x8B65, 0x8B66}, {0x8B67, 0x8B5B, 0x8B68}, {0x8B69, 0x8B6A, 0x8B5C}};  // [columns-2][rows-2]
+    return kMatrices[type.columns - 2][type.rows - 2];
+  }
+  static constexpr std::uint32_t kFloats[] = {0x1406, 0x8B50, 0x8B51, 0x8B52};
+  static constexpr std::uint32_t kInts[] = {0x1404, 0x8B53, 0x8B54, 0x8B55};
+  static constexpr std::uint32_t kUints[] = {0x1405, 0x8DC6, 0x8DC7, 0x8DC8};
+  static constexpr std::uint32_t kBools[] = {0x8B56, 0x8B57, 0x8B58, 0x8B59};
+  const int n = type.rows - 1;
+  switch (type.basic) {
+    case Basic::float_:
+      return kFloats[n];
+    case Basic::int_:
+      return kInts[n];
+    case Basic::uint_:
+      return kUints[n];
+    case Basic::bool_:
+      return kBools[n];
+    default:
+      return 0;
+  }
+}
+
+// ---- prepared programs ---------------------------------------------------------------------------------
+
+Prepared::Prepared(Prepared&& other) noexcept
+    : compile_time(other.compile_time),
+      session_(std::exchange(other.session_, nullptr)),
+      handle_(other.handle_) {}
+
+Prepared& Prepared::operator=(Prepared&& other) noexcept {
+  if (this != &other) {
+    if (session_ != nullptr) session_->release(handle_);
+    session_ = std::exchange(other.session_, nullptr);
+    handle_ = other.handle_;
+    compile_time = other.compile_time;
+  }
+  return *this;
+}
+
+Prepared::~Prepared() {
+  if (session_ != nullptr) session_->release(handle_);
+}
+
+// ---- capture passes ------------------------------------------------------------------------------------
+
+namespace {
+
+std::vector<std::string> outputNames(const frontend::Shader& shader) {
+  std::vector<std::string> names;
+  for (const frontend::VariableId id : shader.outputs) {
+    names.push_back(shader.variables[static_cast<std::size_t>(id)].name);
+  }
+  return names;
+}
+
+wire::PrepareT preparation(const frontend::Shader& shader, const std::string& text) {
+  wire::PrepareT prepare;
+  prepare.stage = static_cast<wire::Stage>(shader.stage);
+  prepare.text = text;
+  prepare.user_outputs = outputNames(shader);
+  return prepare;
+}
+
+wire::PrepareT preparation(const frontend::Shader& shader, const std::string& text,
+                           const instrumenter::AttachmentLayout& layout) {
+  wire::PrepareT prepare = preparation(shader, text);
+  const bool as_floats = layout.carrier == instrumenter::Carrier::float_attachments;
+  prepare.first_frag_data = layout.outputs.empty() ? layout.first_frag_data : -1;
+  for (int i = 0; i < layout.attachments(); ++i) {
+    auto capture = std::make_unique<wire::CaptureOutputT>();
+    if (!layout.outputs.empty()) capture->name = layout.outputs[static_cast<std::size_t>(i)];
+    capture->format = as_floats ? wire::CaptureFormat::Float4 : wire::CaptureFormat::Uint4;
+    prepare.captures.push_back(std::move(capture));
+  }
+  return prepare;
+}
+
+frontend::Type pixelType(std::uint32_t gl_type) {
+  constexpr std::uint32_t kInt = 0x1404, kUnsignedInt = 0x1405;  // GL_INT, GL_UNSIGNED_INT
+  frontend::Type type;
+  type.basic = gl_type == kInt           ? frontend::Basic::int_
+               : gl_type == kUnsignedInt ? frontend::Basic::uint_
+                                         : frontend::Basic::float_;
+  type.rows = 4;
+  return type;
+}
+
+// layout(origin_upper_left) in vec4 gl_FragCoord;
+bool countsRowsFromTop(const frontend::Shader& shader) {
+  return std::any_of(shader.tokens.begin(), shader.tokens.end(),
+                     [](const frontend::Token& token) { return token.text == "origin_upper_left"; });
+}
+
+// The words of one range of the bulk memory; throws if the agent's numbers do not fit.
+std::vector<std::uint32_t> wordsOf(const wire::SharedMemory& bulk, const wire::BulkRangeT* range) {
+  if (range == nullptr || range->bytes == 0) return {};
+  if (range->offset > bulk.size() || range->bytes > bulk.size() - range->offset) {
+    throw Error(Outcome::failed, "the agent's answer does not fit its memory; report this as a bug");
+  }
+  std::vector<std::uint32_t> words(range->bytes / 4);
+  std::memcpy(words.data(), bulk.data() + range->offset, words.size() * 4);
+  return words;
+}
+
+}  // namespace
+
+Prepared Session::send(wire::PrepareT&& prepare) {
+  const auto [reply, bulk] = state_->ask<wire::PreparedT>(std::move(prepare));
+  Prepared prepared(this, reply.handle);
+  prepared.compile_time = std::chrono::nanoseconds(reply.compile_ns);
+  prepared.output_locations = reply.output_locations;
+  return prepared;
+}
+
+Prepared Session::prepare(const instrumenter::AttachmentShader& instrumented) {
+  requireCapturable();
+  return send(preparation(shader(Stage::fragment), instrumented.text, instrumented.layout));
+}
+
+Prepared Session::prepare(const instrumenter::RecordingShader& instrumented) {
+  requireCapturable();
+  auto prepare = preparation(shader(Stage::fragment), instrumented.text, instrumented.layout.attachment);
+  prepare.storage_block = instrumented.layout.block;
+  return send(std::move(prepare));
+}
+
+Prepared Session::prepareOriginal() {
+  return prepareText("");
+}
+
+Prepared Session::prepareText(const std::string& fragment_text) {
+  requireCapturable();
+  return send(preparation(shader(Stage::fragment), fragment_text));
+}
+
+Prepared Session::prepareCovering(const std::string& fragment_text, const std::string& vertex_text) {
+  requireCapturable();
+  wire::PrepareT prepare = preparation(shader(Stage::fragment), fragment_text);
+  prepare.geometry = wire::Geometry::Covering;
+  prepare.vertex_text = vertex_text;
+  return send(std::move(prepare));
+}
+
+Execution Session::execute(const Prepared& prepared, const ExecuteOptions& options) {
+  wire::ExecuteT execute;
+  execute.handle = prepared.handle();
+  for (const Uniform& uniform : options.uniforms) {
+    auto value = std::make_unique<wire::UniformValueT>();
+    value->name = uniform.name;
+    value->gl_type = uniform.gl_type;
+    value->words = uniform.words;
+    execute.uniforms.push_back(std::move(value));
+  }
+  execute.storage = options.storage;
+  execute.storage_words = options.storage_words;
+  execute.compare = options.compare;
+  execute.read_outputs = options.read_outputs;
+  execute.read_captures = options.read_captures;
+  execute.repeats = static_cast<std::uint32_t>(options.repeats);
+  execute.covering_size = options.covering_size;
+
+  auto [reply, descriptor] = state_->ask<wire::ExecutedT>(std::move(execute));
+  const wire::SharedMemory bulk = wire::SharedMemory::map(std::move(descriptor));
+  Execution result;
+  result.width = reply.width;
+  result.height = reply.height;
+  const std::size_t per_plane =
+      static_cast<std::size_t>(reply.width) * static_cast<std::size_t>(reply.height) * 4;
+  for (const auto& range : reply.attachments) {
+    result.attachments.push_back(wordsOf(bulk, range.get()));
+    if (result.attachments.back().size() != per_plane) {
+      throw Error(Outcome::failed, "the agent's answer has the wrong size; report this as a bug");
+    }
+  }
+  if (reply.output_draw_buffers.size() != reply.outputs.size() ||
+      reply.output_types.size() != reply.outputs.size()) {
+    throw Error(Outcome::failed, "the agent's answer is incomplete; report this as a bug");
+  }
+  for (std::size_t i = 0; i < reply.outputs.size(); ++i) {
+    ColorOutput output;
+    output.draw_buffer = reply.output_draw_buffers[i];
+    output.type = pixelType(reply.output_types[i]);
+    output.words = wordsOf(bulk, reply.outputs[i].get());
+    result.outputs.push_back(std::move(output));
+  }
+  result.storage = wordsOf(bulk, reply.storage.get());
+  for (const std::uint64_t ns : reply.times_ns) result.times.emplace_back(ns);
+  result.check.compared_at_all = options.compare && reply.compare_reason.empty();
+  result.check.compared = reply.compared;
+  result.check.differing = reply.differing;
+  result.check.reason = options.compare ? reply.compare_reason : "not asked for";
+  if (reply.differing + reply.unstable > 0 && reply.outside_colors == 0) {
+    leaveOutUndefined(prepared, options, reply.unstable, result.check);
+  }
+  return result;
+}
+
+// What a shader leaves undefined may differ between two draws, and proves nothing.
+void Session::leaveOutUndefined(const Prepared& prepared, const ExecuteOptions& options,
+                                std::uint64_t unstable, Check& check) {
+  if (!state_->undefined) state_->undefined = findUndefinedOutputs(*this);
+  const UndefinedOutputs& undefined = *state_->undefined;
+  if (undefined.count == 0) return;
+  ExecuteOptions again = options;
+  again.compare = false;
+  again.read_captures = false;
+  again.read_outputs = true;
+  again.repeats = 1;
+  const std::uint64_t differing = differingDefined(undefined, execute(prepared, again).outputs);
+  if (unstable > 0 && differing > 0) return;  // the draw is unstable beyond that, as the agent says
+  check.compared_at_all = true;
+  check.reason.clear();
+  check.differing = differing;
+  check.undefined = std::min(check.compared + unstable, undefined.count);
+  check.compared = check.compared + unstable - check.undefined;
+}
+
+ThreadWords joinAttachments(const Execution& execution, int words) {
+  ThreadWords joined;
+  joined.width = execution.width;
+  joined.height = execution.height;
+  joined.words = words;
+  const std::size_t pixels =
+      static_cast<std::size_t>(execution.width) * static_cast<std::size_t>(execution.height);
+  const auto width = static_cast<std::size_t>(words);
+  joined.data.assign(pixels * width, 0);
+  for (std::size_t a = 0; a < execution.attachments.size(); ++a) {
+    const std::size_t first = a * 4;
+    if (first >= width) break;
+    const std::size_t take = std::min<std::size_t>(4, width - first);
+    const std::uint32_t* from = execution.attachments[a].data();
+    for (std::size_t p = 0; p < pixels; ++p) {
+      std::copy_n(from + p * 4, take, joined.data.begin() + static_cast<std::ptrdiff_t>(p * width + first));
+    }
+  }
+  return joined;
+}
+
+Captured Session::capture(const instrumenter::AttachmentShader& instrumented, const ExecuteOptions& options) {
+  const Prepared prepared = prepare(instrumented);
+  Captured captured;
+  captured.layout = instrumented.layout;
+  captured.execution = execute(prepared, options);
+  captured.threads = joinAttachments(captured.execution, instrumented.layout.words);
+  captured.execution.attachments.clear();
+  if (shader(Stage::fragment).traits.uses_discard) {
+    captured.execution.check.left_out =
+        "threads that end in a discard write nothing and are left out; 'debug --pixel' follows them";
+  }
+  return captured;
+}
+
+Session::PreparedRecording Session::prepareRecording() {
+  auto instrumented = instrumenter::instrumentRecording(shader(Stage::fragment), target());
+  if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) {
+    throw Error(Outcome::cannot_debug, failure->reason);
+  }
+  auto& recording_shader = std::get<instrumenter::RecordingShader>(instrumented);
+  Prepared prepared = prepare(recording_shader);
+  return {std::move(recording_shader), std::move(prepared)};
+}
+
+Session::Recorded Session::record(int x, int y, int width, int height) {
+  return record(prepareRecording(), x, y, width, height);
+}
+
+Session::Recorded Session::record(const PreparedRecording& prepared, int x, int y, int width, int height) {
+  const instrumenter::RecordingShader& recording_shader = prepared.shader;
+  // The shader compares with gl_FragCoord, which may count rows from the top.
+  const bool from_top = countsRowsFromTop(shader(Stage::fragment));
+  const int first_row = from_top ? facts().height - y - height : y;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  std::uint64_t threads = pixels * kThreadsPerPixel;
+  std::uint64_t room = pixels == 1 ? kFirstRoomPerThread : 4096;
+  while (true) {
+    const std::uint64_t words = instrumenter::kRecordingHeader + threads * room;
+    if (words > kMostRecordingWords) {
+      throw Error(Outcome::cannot_debug, "the recording of these pixels would take " +
+                                             std::to_string(words * 4 >> 20) +
+                                             " MiB; record fewer pixels at once");
+    }
+    ExecuteOptions options;
+    options.uniforms.push_back({recording_shader.layout.pixel_uniform,
+                                0x8B55,
+                                {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(first_row),
+                                 static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}});
+    options.storage = {0, static_cast<std::uint32_t>(room), static_cast<std::uint32_t>(threads), 0};
+    options.storage_words = words;
+    options.read_outputs = true;
+    Recorded recorded;
+    recorded.execution = execute(prepared.program, options);
+    recorded.layout = recording_shader.layout;
+    recorded.recording = instrumenter::decodeRecording(recording_shader.layout, recorded.execution.storage);
+    if (!recorded.recording.error.empty()) throw Error(Outcome::failed, recorded.recording.error);
+
+    std::uint64_t wanted = 0;
+    for (const auto& thread : recorded.recording.threads) {
+      if (!thread.complete) wanted = std::max<std::uint64_t>(wanted, thread.wanted);
+    }
+    if (wanted == 0 && recorded.recording.started <= threads) {
+      for (auto& thread : recorded.recording.threads) {
+        if (from_top) thread.y = facts().height - 1 - thread.y;
+      }
+      recorded.visible = joinAttachments(recorded.execution, recording_shader.layout.attachment.words);
+      return recorded;
+    }
+    threads = std::max<std::uint64_t>(recorded.recording.started, 1);
+    room = std::max<std::uint64_t>(room, wanted + instrumenter::kThreadHeader);
+  }
+}
+
+void Session::release(std::uint32_t handle) noexcept {
+  if (!state_->stop || !state_->programs.isStopped()) return;
+  try {
+    wire::ReleaseT release;
+    release.handle = handle;
+    state_->ask<wire::DoneT>(std::move(release));
+  } catch (const Error&) {
+    // The program is gone or will be: nothing is left to release.
+  }
+}
+
+}  // namespace shadestep::session

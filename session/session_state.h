@@ -1,0 +1,55 @@
+// What a Session holds; shared by the files that implement it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "session/programs.h"
+#include "session/session.h"
+#include "session/undefined_outputs.h"
+
+namespace shadestep::session {
+
+// The agent's refusal as the Error that it is.
+[[noreturn]] void raise(const wire::FailedT&);
+
+struct Session::State {
+  State(const LaunchOptions& options, const std::string& interceptor)
+      : programs(options.command, interceptor, options.program_output_to_stderr) {
+    if (options.timeout.count() > 0) deadline = std::chrono::steady_clock::now() + options.timeout;
+  }
+
+  Programs programs;
+  Programs::Deadline deadline;
+  std::optional<DrawStop> stop;
+  std::optional<DrawFacts> facts;
+  std::map<Stage, frontend::Shader> shaders;
+  std::optional<UndefinedOutputs> undefined;
+
+  void leaveStop() {
+    stop.reset();
+    facts.reset();
+    shaders.clear();
+    undefined.reset();
+  }
+
+  wire::Packet request(wire::MessageT& message) { return programs.request(message, deadline); }
+
+  template <class Reply, class Request>
+  std::pair<Reply, wire::Descriptor> ask(Request&& request_body) {
+    if (!stop) throw Error(Outcome::failed, "select a draw first");
+    wire::MessageT message;
+    message.body.Set(std::forward<Request>(request_body));
+    wire::Packet packet = request(message);
+    std::unique_ptr<wire::MessageT> reply(wire::UnPackMessage(packet.bytes.data()));
+    if (const wire::FailedT* failed = reply->body.AsFailed()) raise(*failed);
+    if (reply->body.type != wire::BodyTraits<typename Reply::TableType>::enum_value) {
+      throw Error(Outcome::failed, "the agent answered something else than was asked; report this as a bug");
+    }
+    return {std::move(*static_cast<Reply*>(reply->body.value)), std::move(packet.bulk)};
+  }
+};
+
+}  // namespace shadestep::session

@@ -1,0 +1,76 @@
+// What a shader leaves undefined is no difference; everything that it does write is still compared.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "launch.h"
+#include "session/session.h"
+
+namespace shadestep::test {
+namespace {
+
+constexpr int kSide = 16;  // of programs/shader-file's target, of four components a pixel
+
+Json checkOf(const Scratch& scratch, const std::string& text) {
+  const std::string file = scratch.file("shader.frag");
+  std::ofstream(file) << text;
+  const Finished finished =
+      scratch.shadestep({"debug", "--json", "--pixel", "9,3"}, {binary("programs/shader-file"), file});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  return finished.json().at("check");
+}
+
+// What an unwritten output holds is the driver's choice, and so is whether two programs differ in it.
+void expectUndefined(const Json& check, int components) {
+  EXPECT_EQ(check.at("outputs"), "identical") << check.dump();
+  const int compared = check.at("compared");
+  const int undefined = check.at("undefined");
+  EXPECT_EQ(compared + undefined, kSide * kSide * 4);
+  EXPECT_TRUE(undefined == 0 || undefined == components) << check.dump();
+}
+
+TEST(UndefinedOutputs, OfAnOutputThatIsNeverWritten) {
+  const Scratch scratch;
+  expectUndefined(checkOf(scratch,
+                          "#version 330\nout vec4 color;\nvoid main() {\n  float a = gl_FragCoord.x * 0.3;\n"
+                          "  if (a > 100.0) discard;\n}\n"),
+                  kSide * kSide * 4);
+}
+
+TEST(UndefinedOutputs, OfThreadsThatDoNotWriteIt) {
+  const Scratch scratch;
+  expectUndefined(checkOf(scratch,
+                          "#version 330\nout vec4 color;\nvoid main() {\n  float a = gl_FragCoord.x;\n"
+                          "  if (a < 4.0) return;\n  color = vec4(a, exp(a), sin(a), a);\n}\n"),
+                  4 * kSide * 4);
+}
+
+TEST(UndefinedOutputs, OfComponentsThatAreNotWritten) {
+  const Scratch scratch;
+  expectUndefined(checkOf(scratch,
+                          "#version 330\nout vec4 color;\nvoid main() {\n  float a = gl_FragCoord.x;\n"
+                          "  color.xz = vec2(a, cos(a));\n}\n"),
+                  kSide * kSide * 2);
+}
+
+TEST(UndefinedOutputs, DoNotHideADifferenceInWhatIsWritten) {
+  const Scratch scratch;
+  const std::string file = scratch.file("shader.frag");
+  const std::string text =
+      "#version 330\nout vec4 color;\nvoid main() {\n  float a = gl_FragCoord.x;\n"
+      "  if (a < 4.0) return;\n  color = vec4(a, 2.0, 3.0, 4.0);\n}\n";
+  std::ofstream(file) << text;
+  session::LaunchOptions launch;
+  launch.command = {binary("programs/shader-file"), file};
+  session::Session session(launch);
+  session.runTo(0, 0);
+  std::string other = text;
+  other.replace(other.find("2.0"), 3, "5.0");
+  const session::Check check = session.execute(session.prepareText(other)).check;
+  EXPECT_TRUE(check.compared_at_all) << check.reason;
+  EXPECT_EQ(check.differing, static_cast<std::uint64_t>((kSide - 4) * kSide));
+  EXPECT_TRUE(session.execute(session.prepareText(text)).check.identical());
+}
+
+}  // namespace
+}  // namespace shadestep::test
