@@ -93,7 +93,15 @@ int measure(const std::vector<std::string>& command) {
   const int x = session.facts().width / 2, y = session.facts().height / 2;
   std::vector<Measure> measures = {
       {"bare draw", [&] { return drawMilliseconds(session, original); }},
-      {"one pixel's run: whole", [&] { return wallMilliseconds([&] { session.record(x, y, 1, 1); }); }}};
+      {"one pixel's run: whole", [&] { return wallMilliseconds([&] { session.record(x, y, 1, 1); }); }},
+      {"one pixel's run: compile", [&] { return wallMilliseconds([&] { session.prepareRecording(); }); }},
+      {"one pixel's run: the rest",
+       [&] {
+         const session::Session::PreparedRecording prepared = session.prepareRecording();
+         return wallMilliseconds([&] { session.record(prepared, x, y, 1, 1); });
+       }},
+      {"one pixel's run: draw",
+       [&] { return Milliseconds(session.record(x, y, 1, 1).execution.times.front()).count(); }}};
 
   session::Stepper stepper(session, std::nullopt, session::Plan::window);
   std::vector<session::Window> windows;

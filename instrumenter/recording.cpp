@@ -11,6 +11,7 @@
 #include "instrumenter/constructs/function.h"
 #include "instrumenter/constructs/jump.h"
 #include "instrumenter/constructs/main.h"
+#include "instrumenter/constructs/plain_copy.h"
 #include "instrumenter/constructs/statement.h"
 #include "instrumenter/helpers/helpers.h"
 #include "instrumenter/instrumenter.h"
@@ -254,9 +255,14 @@ Result<RecordingShader> instrumentRecording(const Shader& shader, const Target& 
   attachments.add("invocation", invocation);
   attachments.declare();
   draft.append(draft.adapt(helpers::k_recording_functions));
-  // 2. The frame: a thread starts and ends in the new main.
+  // 2. The frame: a thread starts and ends in the new main; one that is not recorded runs the plain copy.
+  // (The
+  //    functions behind subroutine uniforms cannot be told apart that way.)
   const std::string count = draft.name("invocation");
-  wrapMain(draft, "  " + draft.name("begin();\n"),
+  std::string other;
+  if (!shader.traits.uses_subroutines)
+    other = "  if (!" + draft.name("on") + ") " + copyPlain(draft) + "(); else\n";
+  wrapMain(draft, "  " + draft.name("begin();\n") + other,
            "  " + draft.name("end(1);\n") + "  " + attachments.assign(kLaunched | kReached, {count}) + ";\n" +
                attachments.write());
   // 3. Functions before statements: their records enclose those of their statements.
