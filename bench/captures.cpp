@@ -13,6 +13,7 @@
 
 #include "session/session.h"
 #include "session/stepper.h"
+#include "session/window.h"
 
 namespace {
 
@@ -117,8 +118,9 @@ int measure(const std::vector<std::string>& command) {
                           return wallMilliseconds([&] { stepper.look(names); });
                         }});
     for (const std::size_t probes : {1, 2, 4, 8, 16}) {
-      windows.emplace_back(session,
-                           session::probesAround(stepper.shader(), stepper.position(), names, probes));
+      windows.emplace_back(
+          session,
+          session::probesAround(stepper.shader(), session::probeAt(stepper.position()), names, probes));
       const std::size_t index = windows.size() - 1;
       measures.push_back({"window of " + std::to_string(probes) + ": draw", [&, index] {
                             windows[index].valuesAt(session::probeAt(stepper.position()));

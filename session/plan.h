@@ -1,23 +1,33 @@
-// The ways to get at values (design: three capture plans). What they show is the same; they differ in what
-// they cost and in what the driver must offer.
+// The ways to get at values (design: three capture plans) behind one interface. What they show is the same;
+// they differ in what they cost and in what the driver must offer.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+
+#include "session/thread_values.h"
 
 namespace shadestep::session {
 
 enum class Plan {
   automatic,  // the cheapest that fits
-  single,     // one probe, compiled for each step
-  window,     // the probes around a place compiled once: a step costs a draw
+  single,     // one probe, compiled for each place
+  window,     // the probes around a place compiled once: another place among them costs a draw
 };
 
-inline std::optional<Plan> planByName(const std::string& name) {
-  if (name == "auto") return Plan::automatic;
-  if (name == "single") return Plan::single;
-  if (name == "window") return Plan::window;
-  return std::nullopt;
-}
+// "auto", "single", "window"; nothing for another name.
+std::optional<Plan> planByName(const std::string&);
+
+// Serves the draw that the session stands at, and no longer.
+class CapturePlan {
+ public:
+  virtual ~CapturePlan() = default;
+  // The values of all of the probe's watches, over all threads; with `outcome` the condition's first, named
+  // "". Throws cannot_debug, with the reason, where this plan cannot get at them.
+  virtual ThreadValues valuesAt(const instrumenter::Probe&) = 0;
+};
+
+std::unique_ptr<CapturePlan> makePlan(Session&, Plan);
 
 }  // namespace shadestep::session

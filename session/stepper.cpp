@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "session/values.h"
+#include "session/window.h"
 
 namespace shadestep::session {
 namespace {
@@ -63,11 +64,10 @@ const WatchedValues* valueOf(const ThreadValues& threads, const std::string& nam
 }  // namespace
 
 Stepper::Stepper(Session& session, std::optional<std::size_t> pixel, Plan plan)
-    : session_(session),
-      shader_(session.shader(Stage::fragment)),
+    : shader_(session.shader(Stage::fragment)),
       navigation_(shader_),
       pixel_(pixel),
-      plan_(plan) {
+      plan_(makePlan(session, plan)) {
   position_ = navigation_.start();
 }
 
@@ -78,7 +78,6 @@ void Stepper::moveTo(const Position& position) {
 }
 
 ThreadValues Stepper::look(const std::vector<std::string>& watches) {
-  if (!watches.empty()) watches_ = watches;
   ThreadValues values = here(watches);
   std::vector<WatchedValues> wanted;
   for (const std::string& name : watches) wanted.push_back(*valueOf(values, name));
@@ -94,27 +93,8 @@ const ThreadValues& Stepper::here(const std::vector<std::string>& watches) {
   const auto known = [&](const std::string& name) { return valueOf(*here_, name) != nullptr; };
   if (here_ && std::all_of(watches.begin(), watches.end(), known)) return *here_;
 
-  const bool by_window =
-      plan_ != Plan::single && ((window_ && window_->serves(probe)) || moveWindow(watches));
-  here_ = by_window ? window_->valuesAt(probe) : valuesAt(session_, probe, watches);
+  here_ = plan_->valuesAt(probe);
   return *here_;
-}
-
-// Compiles a window around the position, smaller ones if it does not fit. False if none does.
-bool Stepper::moveWindow(const std::vector<std::string>& watches) {
-  std::vector<std::string> names = watches;
-  for (const std::string& name : watches_)
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  window_.reset();
-  for (std::size_t most = kWindowProbes; most > 0; most /= 2) {
-    try {
-      window_.emplace(session_, probesAround(shader_, position_, names, most));
-      return true;
-    } catch (const Error& error) {
-      if (error.outcome() != Outcome::cannot_debug || (most == 1 && plan_ == Plan::window)) throw;
-    }
-  }
-  return false;
 }
 
 const std::vector<TakenSide>& Stepper::sides() {

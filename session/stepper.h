@@ -3,6 +3,7 @@
 // are simply not at the position; after the branch they are again.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "session/navigation.h"
 #include "session/plan.h"
 #include "session/thread_values.h"
-#include "session/window.h"
 
 namespace shadestep::session {
 
@@ -25,8 +25,8 @@ class Stepper {
  public:
   // At the start of main of the current draw's fragment shader. `pixel` (index into the target) picks the
   // thread whose way is followed where no side is chosen; without one, the way that most threads take.
-  // By the automatic plan, a window moves along with the position, and steps inside of it cost no
-  // compilation.
+  // By the window plan and the automatic one, a window moves along with the position, and steps inside of it
+  // cost no compilation.
   explicit Stepper(Session&, std::optional<std::size_t> pixel = std::nullopt, Plan plan = Plan::automatic);
 
   const frontend::Shader& shader() const { return shader_; }
@@ -46,16 +46,12 @@ class Stepper {
 
  private:
   const ThreadValues& here(const std::vector<std::string>& watches);
-  bool moveWindow(const std::vector<std::string>& watches);
 
-  Session& session_;
   const frontend::Shader& shader_;
   Navigation navigation_;
   Position position_;
   std::optional<std::size_t> pixel_;
-  Plan plan_;
-  std::optional<Window> window_;
-  std::vector<std::string> watches_;             // last asked for: what the next window watches too
+  std::unique_ptr<CapturePlan> plan_;
   std::optional<ThreadValues> here_;             // what is known of the current position
   std::optional<std::vector<TakenSide>> sides_;  // of the current position, once asked for
 };

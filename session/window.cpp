@@ -78,28 +78,52 @@ Probe probeAt(const Position& position) {
   return probe;
 }
 
-std::vector<Probe> probesAround(const frontend::Shader& shader, const Position& from,
-                                const std::vector<std::string>& watches, std::size_t most) {
+namespace {
+
+Position positionOf(const Probe& probe) {
+  Position position;
+  position.call_path = probe.call_path;
+  position.statement = probe.statement;
+  position.iterations = probe.iterations;
+  position.condition = probe.outcome;
+  return position;
+}
+
+void watchInScope(const frontend::Shader& shader, const std::vector<std::string>& names, Probe& probe) {
+  probe.watches.clear();
+  for (const std::string& name : names) {
+    frontend::WatchResult found = frontend::resolveWatch(shader, probe.statement, name);
+    if (found.watch && frontend::wordCount(found.watch->type) > 0)
+      probe.watches.push_back(std::move(*found.watch));
+  }
+}
+
+}  // namespace
+
+std::vector<Probe> probesAround(const frontend::Shader& shader, const Probe& first,
+                                const std::vector<std::string>& names, std::size_t most) {
   const Navigation navigation(shader);
   std::vector<Probe> probes;
-  std::deque<Position> ahead = {from};
+  const auto add = [&](Probe probe) {
+    const auto same = [&](const Probe& known) { return samePlace(known, probe); };
+    if (std::any_of(probes.begin(), probes.end(), same)) return false;
+    watchInScope(shader, names, probe);
+    probes.push_back(std::move(probe));
+    return true;
+  };
+  std::deque<Position> ahead;
+  const auto goOn = [&](const Position& position) {
+    for (const Side& side : navigation.sides(position)) ahead.push_back(side.next);
+    if (position.condition) return;
+    ahead.push_back(navigation.over(position));
+    ahead.push_back(navigation.into(position));
+  };
+  add(first);
+  goOn(positionOf(first));
   while (!ahead.empty() && probes.size() < most) {
     const Position position = std::move(ahead.front());
     ahead.pop_front();
-    if (position.ended()) continue;
-    Probe probe = probeAt(position);
-    const auto same = [&](const Probe& known) { return samePlace(known, probe); };
-    if (std::any_of(probes.begin(), probes.end(), same)) continue;
-    for (const std::string& name : watches) {
-      frontend::WatchResult found = frontend::resolveWatch(shader, probe.statement, name);
-      if (found.watch && frontend::wordCount(found.watch->type) > 0)
-        probe.watches.push_back(std::move(*found.watch));
-    }
-    probes.push_back(std::move(probe));
-    for (const Side& side : navigation.sides(position)) ahead.push_back(side.next);
-    if (position.condition) continue;
-    ahead.push_back(navigation.over(position));
-    ahead.push_back(navigation.into(position));
+    if (!position.ended() && add(probeAt(position))) goOn(position);
   }
   return probes;
 }

@@ -8,10 +8,6 @@
 
 namespace shadestep::session {
 
-// More probes make more steps free of compilation, and every draw slower where the driver runs through what
-// no thread takes (llvmpipe does): see docs/performance.md.
-inline constexpr std::size_t kWindowProbes = 8;
-
 class Window {
  public:
   // Serves the draw that the session stands at, and no longer. Throws cannot_debug if the text does not fit.
@@ -39,9 +35,9 @@ class Window {
 // What is captured at a position: before its statement, or after its condition with the outcome.
 instrumenter::Probe probeAt(const Position&);
 
-// The probes that a walk from this position meets first, its own included, both sides of branches and called
-// functions too; nearest first. What is in scope there of the names is watched.
-std::vector<instrumenter::Probe> probesAround(const frontend::Shader&, const Position&,
-                                              const std::vector<std::string>& watches, std::size_t most);
+// This probe and those that a walk from its place meets first, both sides of branches and called functions
+// too; nearest first. What is in scope there of the names is watched.
+std::vector<instrumenter::Probe> probesAround(const frontend::Shader&, const instrumenter::Probe& first,
+                                              const std::vector<std::string>& names, std::size_t most);
 
 }  // namespace shadestep::session

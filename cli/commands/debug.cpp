@@ -56,6 +56,10 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
       ->add_option("--csv", options->csv,
                    "the printed values, a row per thread (with --pixel alone: a row per step)")
       ->type_name("F");
+  command
+      ->add_option("--plan", options->plan,
+                   "how to get at the values of --at; they are the same by every plan")
+      ->check(CLI::IsMember({"auto", "single", "window"}));
   command->add_flag("--continue", options->let_run,
                     "then let the program run to its own end; default is to end it");
   command->callback(

@@ -20,6 +20,7 @@ struct DebugOptions {
   bool after = false;
   std::string image;
   std::string csv;
+  std::string plan = "auto";
   bool let_run = false;
 };
 

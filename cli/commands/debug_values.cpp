@@ -4,6 +4,7 @@
 #include "cli/commands/debug.h"
 #include "profiler/pictures/files.h"
 #include "profiler/pictures/value_image.h"
+#include "session/plan.h"
 #include "session/values.h"
 
 namespace shadestep::cli {
@@ -171,6 +172,17 @@ void writeImage(const std::string& path, const ThreadValues& threads, const Debu
   }
 }
 
+// For one place a single probe is the cheapest.
+ThreadValues look(session::Session& session, const session::PlaceSelection& place,
+                  const DebugOptions& options) {
+  session::Plan plan = session::planByName(options.plan).value_or(session::Plan::automatic);
+  if (plan == session::Plan::automatic) plan = session::Plan::single;
+  const frontend::Shader& shader = session.shader(session::Stage::fragment);
+  instrumenter::Probe probe = session::probeAt(shader, place);
+  probe.watches = session::watchesAt(shader, probe.statement, splitList(options.print));
+  return session::makePlan(session, plan)->valuesAt(probe);
+}
+
 }  // namespace
 
 int debugValues(session::Session& session, const Common& common, const DebugOptions& options) {
@@ -178,7 +190,7 @@ int debugValues(session::Session& session, const Common& common, const DebugOpti
   std::optional<std::size_t> pixel;
   if (!options.pixel.empty()) pixel = pixelIndex(session, options.pixel);
 
-  const ThreadValues threads = session::valuesAt(session, place, splitList(options.print));
+  const ThreadValues threads = look(session, place, options);
   if (threads.reached == 0) {
     throw session::Error(session::Outcome::nothing_matches,
                          "none of the " + withThousands(threads.launched) + " threads gets to line " +

@@ -1,0 +1,58 @@
+#include "session/plan.h"
+
+#include "session/window_plan.h"
+
+namespace shadestep::session {
+namespace {
+
+class SinglePlan : public CapturePlan {
+ public:
+  explicit SinglePlan(Session& session) : session_(session) {}
+  ThreadValues valuesAt(const instrumenter::Probe& probe) override {
+    return session::valuesAt(session_, probe);
+  }
+
+ private:
+  Session& session_;
+};
+
+// A window where one fits, else single probes.
+class AutomaticPlan : public CapturePlan {
+ public:
+  explicit AutomaticPlan(Session& session) : window_(session), single_(session) {}
+  ThreadValues valuesAt(const instrumenter::Probe& probe) override {
+    try {
+      return window_.valuesAt(probe);
+    } catch (const Error& error) {
+      if (error.outcome() != Outcome::cannot_debug) throw;
+    }
+    return single_.valuesAt(probe);
+  }
+
+ private:
+  WindowPlan window_;
+  SinglePlan single_;
+};
+
+}  // namespace
+
+std::optional<Plan> planByName(const std::string& name) {
+  if (name == "auto") return Plan::automatic;
+  if (name == "single") return Plan::single;
+  if (name == "window") return Plan::window;
+  return std::nullopt;
+}
+
+std::unique_ptr<CapturePlan> makePlan(Session& session, Plan plan) {
+  switch (plan) {
+    case Plan::single:
+      return std::make_unique<SinglePlan>(session);
+    case Plan::window:
+      return std::make_unique<WindowPlan>(session);
+    case Plan::automatic:
+      break;
+  }
+  return std::make_unique<AutomaticPlan>(session);
+}
+
+}  // namespace shadestep::session
