@@ -3,79 +3,25 @@
 //
 // "draw" is the draw and glFinish alone; "whole" is all that a user waits for: instrumenting, compiling,
 // drawing, reading back, and comparing the outputs.
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "session/session.h"
-#include "session/stepper.h"
 #include "session/window.h"
+#include "walk.h"
 
 namespace {
 
 using namespace shadestep;
-using Milliseconds = std::chrono::duration<double, std::milli>;
+using bench::drawMilliseconds;
+using bench::median;
+using bench::Milliseconds;
+using bench::wallMilliseconds;
 
-constexpr int kRounds = 7;  // of which the median counts
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double wallMilliseconds(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return Milliseconds(std::chrono::steady_clock::now() - begin).count();
-}
-
-double drawMilliseconds(session::Session& session, const session::Prepared& program) {
-  session::ExecuteOptions options;
-  options.compare = false;
-  options.read_captures = false;
-  return Milliseconds(session.execute(program, options).times.front()).count();
-}
-
+constexpr int kRounds = 7;           // of which the median counts
 constexpr std::size_t kWatched = 4;  // variables that a step reads back
-
-// Walks a stepper into the body of the shader's first loop, to where the most is in scope.
-bool walkIntoLoop(session::Stepper& stepper) {
-  while (!stepper.ended() && stepper.position().iterations.empty()) {
-    if (stepper.position().condition)
-      stepper.choose();
-    else
-      stepper.moveTo(stepper.navigation().over(stepper.position()));
-  }
-  session::Position last;
-  const auto inLoop = [&] { return !stepper.ended() && !stepper.position().iterations.empty(); };
-  for (int step = 0; inLoop() && stepper.position().iterations.back() == 0; ++step) {
-    if (stepper.position().condition) {
-      stepper.choose();
-      continue;
-    }
-    last = stepper.position();
-    stepper.moveTo(stepper.navigation().over(last));
-  }
-  if (!last.ended()) stepper.moveTo(last);
-  return !last.ended();
-}
-
-// The variables declared last before the position.
-std::vector<std::string> watchesAt(const session::Stepper& stepper) {
-  const frontend::Shader& shader = stepper.shader();
-  std::vector<std::string> names;
-  const auto& scope = shader.statements[static_cast<std::size_t>(stepper.position().statement)].scope;
-  for (auto id = scope.rbegin(); id != scope.rend() && names.size() < kWatched; ++id) {
-    const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(*id)];
-    if (variable.storage == frontend::Storage::local) names.push_back(variable.name);
-  }
-  return names;
-}
 
 struct Measure {
   std::string pass;
@@ -106,15 +52,10 @@ int measure(const std::vector<std::string>& command) {
 
   session::Stepper stepper(session, std::nullopt, session::Plan::window);
   std::vector<session::Window> windows;
-  if (walkIntoLoop(stepper)) {
-    const std::vector<std::string> names = watchesAt(stepper);
-    const auto nextIteration = [&stepper] {
-      session::Position next = stepper.position();
-      ++next.iterations.back();
-      stepper.moveTo(next);
-    };
-    measures.push_back({"step in a window: whole", [&stepper, names, nextIteration] {
-                          nextIteration();
+  if (bench::walkIntoLoop(stepper)) {
+    const std::vector<std::string> names = bench::watchesAt(stepper, kWatched);
+    measures.push_back({"step in a window: whole", [&stepper, names] {
+                          bench::nextIteration(stepper);
                           return wallMilliseconds([&] { stepper.look(names); });
                         }});
     for (const std::size_t probes : {1, 2, 4, 8, 16}) {

@@ -8,15 +8,24 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// Before anything is known of the costs, and the limits of what is tried.
-constexpr std::size_t kFirst = 8;
+// The limits of what is tried. Before anything is known of the costs: what llvmpipe bears in an inner loop,
+// where all threads run through all probes.
 constexpr std::size_t kFewest = 2;
 constexpr std::size_t kMost = 32;
+constexpr std::size_t kFirstMost = 8;
+constexpr std::size_t kFirstWords = 24;
 
 std::vector<std::string> namesOf(const instrumenter::Probe& probe) {
   std::vector<std::string> names;
   for (const frontend::Watch& watch : probe.watches) names.push_back(watch.expression);
   return names;
+}
+
+std::size_t firstSize(const instrumenter::Probe& probe) {
+  std::size_t words = 1;
+  for (const frontend::Watch& watch : probe.watches)
+    words += static_cast<std::size_t>(frontend::wordCount(watch.type));
+  return std::clamp(kFirstWords / words, kFewest, kFirstMost);
 }
 
 nanoseconds bareDraw(Session& session) {
@@ -46,7 +55,7 @@ ThreadValues WindowPlan::valuesAt(const instrumenter::Probe& probe) {
 
 // Compiles a window around the probe's place, smaller ones if it does not fit.
 void WindowPlan::moveTo(const instrumenter::Probe& probe) {
-  const std::size_t size = nextSize();
+  const std::size_t size = nextSize(probe);
   std::vector<std::string> names = namesOf(probe);
   for (const std::string& name : names_)
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -65,8 +74,8 @@ void WindowPlan::moveTo(const instrumenter::Probe& probe) {
   }
 }
 
-std::size_t WindowPlan::nextSize() {
-  if (!window_ || draws_.size() < 2) return probes_ == 0 ? kFirst : probes_;
+std::size_t WindowPlan::nextSize(const instrumenter::Probe& probe) {
+  if (!window_ || draws_.size() < 2) return firstSize(probe);
   if (!bare_) bare_ = bareDraw(session_);
   WindowCosts costs;
   costs.probes = probes_;

@@ -30,7 +30,7 @@ class WindowPlan : public CapturePlan {
 
  private:
   void moveTo(const instrumenter::Probe&);
-  std::size_t nextSize();
+  std::size_t nextSize(const instrumenter::Probe&);
 
   Session& session_;
   std::optional<Window> window_;
