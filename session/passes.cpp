@@ -1,6 +1,5 @@
 // Capture passes at the draw at which the program stands.
 #include <algorithm>
-#include <cstring>
 
 #include "session/session_state.h"
 
@@ -137,14 +136,16 @@ bool countsRowsFromTop(const frontend::Shader& shader) {
 }
 
 // The words of one range of the bulk memory; throws if the agent's numbers do not fit.
-std::vector<std::uint32_t> wordsOf(const wire::SharedMemory& bulk, const wire::BulkRangeT* range) {
+std::span<const std::uint32_t> wordsOf(const wire::SharedMemory& bulk, const wire::BulkRangeT* range) {
   if (range == nullptr || range->bytes == 0) return {};
-  if (range->offset > bulk.size() || range->bytes > bulk.size() - range->offset) {
+  if (range->offset % 4 != 0 || range->offset > bulk.size() || range->bytes > bulk.size() - range->offset) {
     throw Error(Outcome::failed, "the agent's answer does not fit its memory; report this as a bug");
   }
-  std::vector<std::uint32_t> words(range->bytes / 4);
-  std::memcpy(words.data(), bulk.data() + range->offset, words.size() * 4);
-  return words;
+  return {reinterpret_cast<const std::uint32_t*>(bulk.data() + range->offset), range->bytes / 4};
+}
+
+std::vector<std::uint32_t> copyOf(std::span<const std::uint32_t> words) {
+  return {words.begin(), words.end()};
 }
 
 }  // namespace
@@ -205,8 +206,9 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   execute.covering_size = options.covering_size;
 
   auto [reply, descriptor] = state_->ask<wire::ExecutedT>(std::move(execute));
-  const wire::SharedMemory bulk = wire::SharedMemory::map(std::move(descriptor));
   Execution result;
+  result.memory = std::make_shared<wire::SharedMemory>(wire::SharedMemory::map(std::move(descriptor)));
+  const wire::SharedMemory& bulk = *result.memory;
   result.width = reply.width;
   result.height = reply.height;
   const std::size_t per_plane =
@@ -225,10 +227,10 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
     ColorOutput output;
     output.draw_buffer = reply.output_draw_buffers[i];
     output.type = pixelType(reply.output_types[i]);
-    output.words = wordsOf(bulk, reply.outputs[i].get());
+    output.words = copyOf(wordsOf(bulk, reply.outputs[i].get()));
     result.outputs.push_back(std::move(output));
   }
-  result.storage = wordsOf(bulk, reply.storage.get());
+  result.storage = copyOf(wordsOf(bulk, reply.storage.get()));
   for (const std::uint64_t ns : reply.times_ns) result.times.emplace_back(ns);
   result.check.compared_at_all = options.compare && reply.compare_reason.empty();
   result.check.compared = reply.compared;

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,8 @@
 
 namespace shadestep::wire {
 struct PrepareT;
-}
+class SharedMemory;
+}  // namespace shadestep::wire
 
 namespace shadestep::session {
 
@@ -133,8 +135,10 @@ struct ColorOutput {
 
 struct Execution {
   int width = 0, height = 0;
-  std::vector<std::vector<std::uint32_t>> attachments;  // each width*height*4 words, rows bottom up
-  std::vector<ColorOutput> outputs;                     // the program's own
+  std::vector<std::span<const std::uint32_t>>
+      attachments;  // each width*height*4 words, rows bottom up; in `memory`
+  std::shared_ptr<const wire::SharedMemory> memory;
+  std::vector<ColorOutput> outputs;  // the program's own
   std::vector<std::uint32_t> storage;
   std::vector<std::chrono::nanoseconds> times;  // one per repeat: draw + glFinish on the CPU's clock
   Check check;

@@ -235,7 +235,8 @@ SharedMemory SharedMemory::map(Descriptor fd) {
   struct stat info {};
   if (!fd || fstat(fd.get(), &info) != 0 || info.st_size <= 0) return {};
   const auto size = static_cast<std::size_t>(info.st_size);
-  void* data = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, fd.get(), 0);
+  // All of it is about to be written or read: mapped at once it costs no fault a page.
+  void* data = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, fd.get(), 0);
   if (data == MAP_FAILED) return {};
   SharedMemory memory;
   memory.fd_ = std::move(fd);
