@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 namespace raycaster {
@@ -22,6 +23,20 @@ struct Volume {
 // voxel is 1. At 128 voxels an edge the circumradius is 48.7 and sigma 6.98 voxels; other sizes in
 // proportion.
 Volume buckyball(int size = 128);
+
+// A function of the texture coordinate, 0..1 along each axis, taken at the voxel centres.
+Volume sampled(const Eigen::Vector3i& size, const std::function<double(const Eigen::Vector3d&)>& field);
+
+// 1 inside a sphere around the middle, 0 outside, linear over the one voxel between.
+Volume sphere(int size = 64, double radius = 0.4);
+
+// The scalar is the texture coordinate z; exactly so for the interpolation between the outermost voxel
+// centres.
+Volume ramp(int size = 64);
+
+// The test signal of Marschner and Lobb (Visualization 1994): a chirp near the limit of what 41 samples an
+// edge can hold.
+Volume marschnerLobb(int size = 41);
 
 // `value` everywhere.
 Volume homogeneousCube(float value = 0.5F);
