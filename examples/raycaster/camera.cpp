@@ -45,6 +45,10 @@ Camera::Camera(const Vector3d& extent, const Orbit& orbit) {
   matrix_ = perspective(near, distance + 2 * radius) * view;
 }
 
+Vector3d Camera::corner(int x, int y) const {
+  return position_ + forward_ + kHalfImage * ((2 * x - 1) * right_ + (2 * y - 1) * up_);
+}
+
 Ray Camera::ray(int x, int y, int size) const {
   const double u = kHalfImage * (2 * (x + 0.5) / size - 1);
   const double v = kHalfImage * (2 * (y + 0.5) / size - 1);

@@ -31,6 +31,9 @@ class Camera {
   // False: the near plane cuts the box, so its front faces would be incomplete.
   bool outside() const { return outside_; }
 
+  // A corner of what an image shows, at distance 1 in front of the camera; x and y are 0 or 1.
+  Eigen::Vector3d corner(int x, int y) const;
+
   // The ray through the middle of pixel (x, y) of a size x size image; y counts upwards (gl_FragCoord).
   Ray ray(int x, int y, int size) const;
 

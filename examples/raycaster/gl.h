@@ -11,13 +11,18 @@ namespace raycaster {
 
 // The prototypes give the members their types only: nothing here links against a GL library.
 struct Gl {
-  decltype(&::glAttachShader) AttachShader;
   decltype(&::glActiveTexture) ActiveTexture;
+  decltype(&::glAttachShader) AttachShader;
   decltype(&::glBindAttribLocation) BindAttribLocation;
   decltype(&::glBindBuffer) BindBuffer;
+  decltype(&::glBindFragDataLocation) BindFragDataLocation;
   decltype(&::glBindFramebuffer) BindFramebuffer;
+  decltype(&::glBindRenderbuffer) BindRenderbuffer;
   decltype(&::glBindTexture) BindTexture;
   decltype(&::glBindVertexArray) BindVertexArray;
+  decltype(&::glBlendEquation) BlendEquation;
+  decltype(&::glBlendFunc) BlendFunc;
+  decltype(&::glBlendFuncSeparate) BlendFuncSeparate;
   decltype(&::glBlitFramebuffer) BlitFramebuffer;
   decltype(&::glBufferData) BufferData;
   decltype(&::glCheckFramebufferStatus) CheckFramebufferStatus;
@@ -27,14 +32,26 @@ struct Gl {
   decltype(&::glCreateProgram) CreateProgram;
   decltype(&::glCreateShader) CreateShader;
   decltype(&::glCullFace) CullFace;
+  decltype(&::glDeleteBuffers) DeleteBuffers;
+  decltype(&::glDeleteFramebuffers) DeleteFramebuffers;
+  decltype(&::glDeleteProgram) DeleteProgram;
+  decltype(&::glDeleteRenderbuffers) DeleteRenderbuffers;
+  decltype(&::glDeleteShader) DeleteShader;
+  decltype(&::glDeleteTextures) DeleteTextures;
+  decltype(&::glDeleteVertexArrays) DeleteVertexArrays;
+  decltype(&::glDepthFunc) DepthFunc;
+  decltype(&::glDisable) Disable;
+  decltype(&::glDrawBuffers) DrawBuffers;
   decltype(&::glDrawElements) DrawElements;
   decltype(&::glEnable) Enable;
   decltype(&::glEnableClientState) EnableClientState;
   decltype(&::glEnableVertexAttribArray) EnableVertexAttribArray;
   decltype(&::glFinish) Finish;
+  decltype(&::glFramebufferRenderbuffer) FramebufferRenderbuffer;
   decltype(&::glFramebufferTexture2D) FramebufferTexture2D;
   decltype(&::glGenBuffers) GenBuffers;
   decltype(&::glGenFramebuffers) GenFramebuffers;
+  decltype(&::glGenRenderbuffers) GenRenderbuffers;
   decltype(&::glGenTextures) GenTextures;
   decltype(&::glGenVertexArrays) GenVertexArrays;
   decltype(&::glGetError) GetError;
@@ -48,7 +65,10 @@ struct Gl {
   decltype(&::glLoadIdentity) LoadIdentity;
   decltype(&::glLoadMatrixf) LoadMatrixf;
   decltype(&::glMatrixMode) MatrixMode;
+  decltype(&::glPixelStorei) PixelStorei;
+  decltype(&::glPointSize) PointSize;
   decltype(&::glReadPixels) ReadPixels;
+  decltype(&::glRenderbufferStorage) RenderbufferStorage;
   decltype(&::glShaderSource) ShaderSource;
   decltype(&::glTexImage1D) TexImage1D;
   decltype(&::glTexImage2D) TexImage2D;
@@ -56,7 +76,9 @@ struct Gl {
   decltype(&::glTexParameteri) TexParameteri;
   decltype(&::glUniform1f) Uniform1f;
   decltype(&::glUniform1i) Uniform1i;
+  decltype(&::glUniform2f) Uniform2f;
   decltype(&::glUniform3f) Uniform3f;
+  decltype(&::glUniform4f) Uniform4f;
   decltype(&::glUniformMatrix4fv) UniformMatrix4fv;
   decltype(&::glUseProgram) UseProgram;
   decltype(&::glVertexAttribPointer) VertexAttribPointer;

@@ -9,12 +9,20 @@
 namespace raycaster {
 namespace {
 
+Volume volumeFor(const Options& options) {
+  const auto synthetic = syntheticVolume(options.volume);
+  return synthetic ? (*synthetic)() : readVolume(options.volume, options.raw);
+}
+
 Scene sceneFor(const Options& options) {
-  return {.volume = options.volume == "cube" ? homogeneousCube() : buckyball(),
+  return {.volume = volumeFor(options),
           .transfer = *TransferFunction::preset(options.transfer),
           .classification = options.classification,
           .step = options.step,
-          .opacityLimit = options.opacityLimit};
+          .opacityLimit = options.opacityLimit,
+          .tableSize = options.tableSize,
+          .tableBits = options.tableBits,
+          .targetBits = options.targetBits};
 }
 
 Camera cameraFor(const Options& options, const Scene& scene, int frame) {
@@ -32,16 +40,13 @@ void warnOfLoopLimit(const Gl& gl, const Scene& scene) {
 
 int run(const Options& options) {
   const Scene scene = sceneFor(options);
-  if (!cameraFor(options, scene, 0).outside()) {
-    std::cerr << "raycaster: the camera is too close to the volume; use a --distance of 0.9 or more\n";
-    return 2;
-  }
   const Profile profile = options.glsl == Glsl::v330 ? Profile::core : Profile::compatibility;
   const auto context = createContext(options.context, profile, options.size, options.size);
   const Gl gl = loadGl([&](const char* name) { return context->address(name); });
   warnOfLoopLimit(gl, scene);
 
-  Renderer renderer(gl, scene, shaderText(options.glsl, options.classification), options.size);
+  Renderer renderer(gl, scene, permutationFor(scene, options.glsl, cameraFor(options, scene, 0)),
+                    options.size);
   Image image;
   for (int frame = 0; frame < options.frames; ++frame) {
     renderer.draw(cameraFor(options, scene, frame));

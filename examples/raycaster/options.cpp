@@ -46,13 +46,27 @@ CommandLine parse(int argc, const char* const* argv) {
       "where to draw (osmesa)");
   addChoice<Glsl>(app, "--glsl", options.glsl, {{"120", Glsl::v120}, {"330", Glsl::v330}},
                   "shading language: 120 in a compatibility context, 330 in a core one (330)");
-  addChoice<Classification>(
-      app, "--classification", options.classification,
-      {{"post", Classification::post}, {"preintegrated", Classification::preintegrated}},
-      "how scalars become colours (preintegrated)");
-  app.add_option("--volume", options.volume, "c60: a buckyball; cube: the same scalar everywhere")
-      ->check(CLI::IsMember({"c60", "cube"}))
+  addChoice<Classification>(app, "--classification", options.classification,
+                            {{"post", Classification::post},
+                             {"fast", Classification::fast},
+                             {"preintegrated", Classification::preintegrated}},
+                            "how scalars become colours (preintegrated)");
+  app.add_option("--volume", options.volume,
+                 "c60 (a buckyball), cube (the same scalar everywhere), sphere, ramp, marschner-lobb, or a "
+                 ".den, .nrrd, .nhdr or .raw file")
+      ->check([](const std::string& name) {
+        const bool known = syntheticVolume(name) || isVolumeFile(name);
+        return known ? std::string()
+                     : "'" + name + "' is neither a volume's name nor a .den, .nrrd or .raw file";
+      })
       ->capture_default_str();
+  std::vector<int> rawSize;
+  RawLayout::Type rawType = RawLayout::Type::u8;
+  app.add_option("--raw-size", rawSize, "voxels of a .raw file: X,Y,Z")->delimiter(',')->expected(3);
+  addChoice<RawLayout::Type>(
+      app, "--raw-type", rawType,
+      {{"u8", RawLayout::Type::u8}, {"u16", RawLayout::Type::u16}, {"f32", RawLayout::Type::f32}},
+      "their type, little-endian (u8)");
   app.add_option("--transfer", options.transfer, "transfer function")
       ->check(CLI::IsMember(TransferFunction::presets()))
       ->capture_default_str();
@@ -64,6 +78,15 @@ CommandLine parse(int argc, const char* const* argv) {
       ->capture_default_str();
   app.add_option("--ert", options.opacityLimit, "a ray ends at this opacity; 0: never early")
       ->check(number(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--table", options.tableSize, "entries of the classification table along each axis")
+      ->check(CLI::Range(2, 4096))
+      ->capture_default_str();
+  app.add_option("--table-bits", options.tableBits, "of its components: 8, 16 (half float) or 32 (float)")
+      ->check(CLI::IsMember({8, 16, 32}))
+      ->capture_default_str();
+  app.add_option("--target-bits", options.targetBits, "of the image's components while drawing: 8, 16 or 32")
+      ->check(CLI::IsMember({8, 16, 32}))
       ->capture_default_str();
   app.add_option("--yaw", options.orbit.yaw, "the camera's orbit, degrees")->check(number(-360.0, 360.0));
   app.add_option("--pitch", options.orbit.pitch, "degrees")->check(number(-90.0, 90.0));
@@ -82,6 +105,7 @@ CommandLine parse(int argc, const char* const* argv) {
       });
   try {
     app.parse(argc, argv);
+    if (!rawSize.empty()) options.raw = RawLayout{{rawSize[0], rawSize[1], rawSize[2]}, rawType};
     line.parsed = true;
   } catch (const CLI::CallForHelp& help) {
     line.exit = app.exit(help);

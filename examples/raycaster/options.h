@@ -1,11 +1,13 @@
 // The command line of the ray caster.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "camera.h"
 #include "context.h"
-#include "shaders.h"
+#include "permutation.h"
+#include "volume_file.h"
 
 namespace raycaster {
 
@@ -13,11 +15,13 @@ struct Options {
   ContextKind context = ContextKind::osmesa;
   Glsl glsl = Glsl::v330;
   Classification classification = Classification::preintegrated;
-  std::string volume = "c60";
+  std::string volume = "c60";  // a synthetic one's name, or a file
+  std::optional<RawLayout> raw;
   std::string transfer = "shells";
   int size = 512;              // image, pixels an edge
   double step = 1.0 / 256;     // object space; the volume's edge is 1
   double opacityLimit = 0.95;  // 0 = off
+  int tableSize = 256, tableBits = 32, targetBits = 32;
   Orbit orbit;
   double turn = 0;  // degrees of yaw from frame to frame
   int frames = 1;

@@ -1,57 +1,37 @@
 #include "renderer.h"
 
-#include <array>
 #include <stdexcept>
-#include <string>
 
 namespace raycaster {
 namespace {
 
-// The box's faces, counter-clockwise from outside; corner number = x + 2 y + 4 z.
-constexpr std::array<GLubyte, 36> kBoxIndices = {4, 5, 7, 4, 7, 6, 1, 0, 2, 1, 2, 3,   // +z, -z
-                                                 5, 1, 3, 5, 3, 7, 0, 4, 6, 0, 6, 2,   // +x, -x
-                                                 6, 7, 3, 6, 3, 2, 0, 1, 5, 0, 5, 4};  // +y, -y
-
-GLuint compile(const Gl& gl, GLenum stage, const std::string& text) {
-  const GLuint shader = gl.CreateShader(stage);
-  const char* const string = text.c_str();
-  gl.ShaderSource(shader, 1, &string, nullptr);
-  gl.CompileShader(shader);
-  GLint compiled = 0;
-  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-  if (!compiled) {
-    std::string log(4096, '\0');
-    gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw std::runtime_error(std::string("the driver does not compile the shader: ") + log.c_str());
+// What a camera sees: a rectangle in front of it, for rays that do not begin on the box.
+void setView(Mesh& mesh, const Camera& camera) {
+  std::vector<float> corners;
+  for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+    const Eigen::Vector3d corner = camera.corner(x, y);
+    for (const double component : corner) corners.push_back(static_cast<float>(component));
   }
-  return shader;
-}
-
-// A texture left bound to the unit.
-GLuint createTexture(const Gl& gl, GLenum unit, GLenum target) {
-  GLuint texture = 0;
-  gl.GenTextures(1, &texture);
-  gl.ActiveTexture(unit);
-  gl.BindTexture(target, texture);
-  gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    gl.TexParameteri(target, wrap, GL_CLAMP_TO_EDGE);
-  return texture;
+  mesh.set(corners, {0, 1, 2, 0, 2, 3});
 }
 
 }  // namespace
 
-ShaderText shaderText(Glsl glsl, Classification classification) {
-  return {glsl, vertexShader(glsl), fragmentShader(glsl, classification)};
+Permutation permutationFor(const Scene& scene, Glsl glsl, const Camera& camera) {
+  return {.glsl = glsl, .classification = scene.classification, .inside = !camera.outside()};
 }
 
-Renderer::Renderer(const Gl& gl, const Scene& scene, const ShaderText& text, int size)
-    : gl_(gl), glsl_(text.glsl), size_(size) {
-  createTextures(scene);
-  createProgram(text, scene);
-  createBox(scene.volume.extent);
-  createTarget();
+Renderer::Renderer(const Gl& gl, const Scene& scene, const Permutation& permutation, int size)
+    : Renderer(gl, scene, permutation, size, shaderText(permutation)) {}
+
+Renderer::Renderer(const Gl& gl, const Scene& scene, const Permutation& permutation, int size,
+                   const ShaderText& text)
+    : gl_(gl), permutation_(permutation), size_(size), objects_(gl_), mesh_(gl_, objects_, permutation.glsl) {
+  createSceneTextures(gl_, objects_, scene);
+  program_ = objects_.program(text);
+  setSceneUniforms(gl_, program_, scene);
+  setBox(mesh_, scene.volume.extent);
+  framebuffer_ = objects_.framebuffer({objects_.image(GL_TEXTURE2, colourFormat(scene.targetBits), size)});
   gl_.Enable(GL_CULL_FACE);
   gl_.CullFace(GL_BACK);
   gl_.Viewport(0, 0, size_, size_);
@@ -60,20 +40,15 @@ Renderer::Renderer(const Gl& gl, const Scene& scene, const ShaderText& text, int
 }
 
 void Renderer::draw(const Camera& camera) {
-  const Eigen::Matrix4f matrix = camera.modelViewProjection().cast<float>();
-  const Eigen::Vector3f position = camera.position().cast<float>();
-  if (glsl_ == Glsl::v120) {
-    gl_.MatrixMode(GL_PROJECTION);
-    gl_.LoadMatrixf(matrix.data());
-  } else {
-    gl_.UniformMatrix4fv(gl_.GetUniformLocation(program_, "modelViewProjection"), 1, GL_FALSE, matrix.data());
-  }
-  gl_.Uniform3f(gl_.GetUniformLocation(program_, "camera"), position.x(), position.y(), position.z());
+  if (permutation_.inside) setView(mesh_, camera);
+  gl_.UseProgram(program_);
+  setMatrix(gl_, permutation_.glsl, program_, camera.modelViewProjection());
+  setUniform(gl_, program_, "camera", camera.position());
 
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.ClearColor(0, 0, 0, 0);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
-  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(kBoxIndices.size()), GL_UNSIGNED_BYTE, nullptr);
+  mesh_.draw();
 }
 
 void Renderer::copyToWindow() {
@@ -83,89 +58,42 @@ void Renderer::copyToWindow() {
 }
 
 Image Renderer::read() {
-  Image image{size_,
-              std::vector<float>(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_) * 4)};
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  gl_.ReadPixels(0, 0, size_, size_, GL_RGBA, GL_FLOAT, image.pixels.data());
-  return image;
+  return readImage(gl_, framebuffer_, size_);
 }
 
-// Unit 0: the volume, unit 1: the transfer function.
-void Renderer::createTextures(const Scene& scene) {
+void createSceneTextures(const Gl& gl, Objects& objects, const Scene& scene) {
   const Eigen::Vector3i size = scene.volume.size;
-  createTexture(gl_, GL_TEXTURE0, GL_TEXTURE_3D);
-  gl_.TexImage3D(GL_TEXTURE_3D, 0, GL_R32F, size.x(), size.y(), size.z(), 0, GL_RED, GL_FLOAT,
-                 scene.volume.voxels.data());
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  objects.texture(GL_TEXTURE0, GL_TEXTURE_3D);
+  gl.TexImage3D(GL_TEXTURE_3D, 0, GL_R32F, size.x(), size.y(), size.z(), 0, GL_RED, GL_FLOAT,
+                scene.volume.voxels.data());
 
-  constexpr int kEntries = 256;
-  if (scene.classification == Classification::preintegrated) {
-    createTexture(gl_, GL_TEXTURE1, GL_TEXTURE_2D);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kEntries, kEntries, 0, GL_RGBA, GL_FLOAT,
-                   preintegrationTable(scene.transfer, scene.step, kEntries).data());
+  const int n = scene.tableSize;
+  const GLint format = colourFormat(scene.tableBits);
+  const std::vector<float> table = classificationTable(scene.transfer, scene.classification, scene.step, n);
+  if (scene.classification == Classification::post) {
+    objects.texture(GL_TEXTURE1, GL_TEXTURE_1D);
+    gl.TexImage1D(GL_TEXTURE_1D, 0, format, n, 0, GL_RGBA, GL_FLOAT, table.data());
   } else {
-    createTexture(gl_, GL_TEXTURE1, GL_TEXTURE_1D);
-    gl_.TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, kEntries, 0, GL_RGBA, GL_FLOAT,
-                   postClassificationTable(scene.transfer, kEntries).data());
+    objects.texture(GL_TEXTURE1, GL_TEXTURE_2D);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, format, n, n, 0, GL_RGBA, GL_FLOAT, table.data());
   }
 }
 
-void Renderer::createProgram(const ShaderText& text, const Scene& scene) {
-  program_ = gl_.CreateProgram();
-  gl_.AttachShader(program_, compile(gl_, GL_VERTEX_SHADER, text.vertex));
-  gl_.AttachShader(program_, compile(gl_, GL_FRAGMENT_SHADER, text.fragment));
-  if (glsl_ == Glsl::v330) gl_.BindAttribLocation(program_, 0, "vertex");
-  gl_.LinkProgram(program_);
-  GLint linked = 0;
-  gl_.GetProgramiv(program_, GL_LINK_STATUS, &linked);
-  if (!linked) {
-    std::string log(4096, '\0');
-    gl_.GetProgramInfoLog(program_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw std::runtime_error(std::string("the driver does not link the program: ") + log.c_str());
-  }
-
-  const Eigen::Vector3f scale = scene.volume.extent.cwiseInverse().cast<float>();
-  gl_.UseProgram(program_);
-  gl_.Uniform1i(gl_.GetUniformLocation(program_, "volume"), 0);
-  gl_.Uniform1i(gl_.GetUniformLocation(program_, "transferFunction"), 1);
-  gl_.Uniform3f(gl_.GetUniformLocation(program_, "scale"), scale.x(), scale.y(), scale.z());
-  gl_.Uniform1f(gl_.GetUniformLocation(program_, "stepSize"), static_cast<float>(scene.step));
-  const double limit = scene.opacityLimit > 0 ? scene.opacityLimit : 2;  // no opacity gets above 1
-  gl_.Uniform1f(gl_.GetUniformLocation(program_, "opacityLimit"), static_cast<float>(limit));
+void setSceneUniforms(const Gl& gl, GLuint program, const Scene& scene) {
+  setUniform(gl, program, "volume", 0);
+  setUniform(gl, program, "transferFunction", 1);
+  setUniform(gl, program, "scale", scene.volume.extent.cwiseInverse());
+  setUniform(gl, program, "stepSize", scene.step);
+  setUniform(gl, program, "opacityLimit",
+             scene.opacityLimit > 0 ? scene.opacityLimit : 2);  // none gets above 1
 }
 
-void Renderer::createBox(const Eigen::Vector3d& extent) {
-  std::array<float, 24> corners{};
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    corners[i] = (i / 3) >> (i % 3) & 1 ? static_cast<float>(extent[static_cast<int>(i % 3)]) : 0.0F;
-
-  std::array<GLuint, 2> buffers{};
-  gl_.GenBuffers(2, buffers.data());
-  if (glsl_ == Glsl::v330) {
-    GLuint vertexArray = 0;
-    gl_.GenVertexArrays(1, &vertexArray);
-    gl_.BindVertexArray(vertexArray);
-  }
-  gl_.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-  gl_.BufferData(GL_ARRAY_BUFFER, sizeof corners, corners.data(), GL_STATIC_DRAW);
-  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof kBoxIndices, kBoxIndices.data(), GL_STATIC_DRAW);
-  if (glsl_ == Glsl::v330) {
-    gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    gl_.EnableVertexAttribArray(0);
-  } else {
-    gl_.VertexPointer(3, GL_FLOAT, 0, nullptr);
-    gl_.EnableClientState(GL_VERTEX_ARRAY);
-  }
-}
-
-void Renderer::createTarget() {
-  const GLuint target = createTexture(gl_, GL_TEXTURE2, GL_TEXTURE_2D);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, size_, size_, 0, GL_RGBA, GL_FLOAT, nullptr);
-  gl_.GenFramebuffers(1, &framebuffer_);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target, 0);
-  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw std::runtime_error("the driver cannot render into an RGBA32F texture; update it");
+Image readImage(const Gl& gl, GLuint framebuffer, int size) {
+  Image image{size, std::vector<float>(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4)};
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  gl.ReadPixels(0, 0, size, size, GL_RGBA, GL_FLOAT, image.pixels.data());
+  return image;
 }
 
 }  // namespace raycaster

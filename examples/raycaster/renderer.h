@@ -1,10 +1,10 @@
-// Draws a scene with OpenGL: the front faces of the volume's box, one ray a fragment.
+// Draws a scene with OpenGL by single-pass ray casting: the front faces of the volume's box, one ray a
+// fragment.
 #pragma once
 
 #include "camera.h"
-#include "gl.h"
+#include "gl_objects.h"
 #include "image_file.h"
-#include "shaders.h"
 #include "transfer_function.h"
 #include "volume.h"
 
@@ -16,36 +16,41 @@ struct Scene {
   Classification classification = Classification::preintegrated;
   double step = 1.0 / 256;     // length of a slab in object space
   double opacityLimit = 0.95;  // early ray termination; 0 = off
+  int tableSize = 256;         // texels an edge
+  int tableBits = 32;          // a component of the table: 8, 16 (half float) or 32 (float)
+  int targetBits = 32;         // the same of the image
 };
 
-// The shaders to draw with, so that a test can draw with a changed one.
-struct ShaderText {
-  Glsl glsl;
-  std::string vertex, fragment;
-};
-ShaderText shaderText(Glsl, Classification);
+// What the shaders for a scene are, seen from that camera.
+Permutation permutationFor(const Scene&, Glsl, const Camera&);
 
 class Renderer {
  public:
-  // Builds textures, program and a size x size RGBA32F target in the current context, which owns them:
-  // nothing is deleted before the context is. Throws std::runtime_error when the driver refuses.
-  Renderer(const Gl&, const Scene&, const ShaderText&, int size);
+  // Builds textures, program and a size x size target in the current context, which must be current in the
+  // destructor too. Throws std::runtime_error when the driver refuses. `text` is drawn with in place of the
+  // permutation's own, so that a test can change it.
+  Renderer(const Gl&, const Scene&, const Permutation&, int size);
+  Renderer(const Gl&, const Scene&, const Permutation&, int size, const ShaderText& text);
 
   void draw(const Camera&);  // one clear, one draw call
   void copyToWindow();       // the default framebuffer, of the same size
   Image read();              // what the last draw() made, exactly
 
  private:
-  void createTextures(const Scene&);
-  void createProgram(const ShaderText&, const Scene&);
-  void createBox(const Eigen::Vector3d& extent);
-  void createTarget();
-
   Gl gl_;
-  Glsl glsl_;
+  Permutation permutation_;
   int size_;
+  Objects objects_;
+  Mesh mesh_;
   GLuint program_ = 0;
   GLuint framebuffer_ = 0;
 };
+
+// The volume in unit 0 and the classification table in unit 1.
+void createSceneTextures(const Gl&, Objects&, const Scene&);
+// The uniforms that all ways to draw a scene share.
+void setSceneUniforms(const Gl&, GLuint program, const Scene&);
+// The pixels of a framebuffer's first target.
+Image readImage(const Gl&, GLuint framebuffer, int size);
 
 }  // namespace raycaster

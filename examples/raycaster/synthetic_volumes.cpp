@@ -119,4 +119,13 @@ Volume homogeneousCube(float value) {
   return {.size = {2, 2, 2}, .voxels = std::vector<float>(8, value)};
 }
 
+std::optional<std::function<Volume()>> syntheticVolume(const std::string& name) {
+  if (name == "c60") return [] { return buckyball(); };
+  if (name == "cube") return [] { return homogeneousCube(); };
+  if (name == "sphere") return [] { return sphere(); };
+  if (name == "ramp") return [] { return ramp(); };
+  if (name == "marschner-lobb") return [] { return marschnerLobb(); };
+  return {};
+}
+
 }  // namespace raycaster

@@ -1,7 +1,7 @@
 #include "transfer_function.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 namespace raycaster {
@@ -9,6 +9,8 @@ namespace {
 
 // shells: a translucent skin around bright, opaque atoms. spike: one thin, hard shell, the worst case for
 // post-classification. opaque: rays end soon, which is what early ray termination lives on. fog: they do not.
+// iso: almost a surface, and nothing at all elsewhere. ramp: absorption 4 s and colour s, which has a closed
+// form.
 const std::map<std::string, TransferFunction>& presetTable() {
   static const std::map<std::string, TransferFunction> table = {
       {"shells", TransferFunction({{0.22, 0.030, {{0.08, 0.26, 0.80}, 4}},
@@ -19,41 +21,51 @@ const std::map<std::string, TransferFunction>& presetTable() {
       {"opaque",
        TransferFunction({{0.40, 0.060, {{0.85, 0.25, 0.20}, 60}}, {0.90, 0.20, {{1.0, 0.85, 0.5}, 300}}})},
       {"fog", TransferFunction({{0.60, 0.250, {{0.75, 0.80, 0.90}, 2}}})},
+      {"iso", TransferFunction({}, {{{0.40, {{0.25, 0.65, 0.95}, 0}},
+                                     {0.45, {{0.25, 0.65, 0.95}, 400}},
+                                     {1.00, {{1.00, 0.95, 0.80}, 400}}}})},
+      {"ramp", TransferFunction({}, {{{0, {{0, 0, 0}, 0}}, {1, {{1, 1, 1}, 4}}}})},
   };
   return table;
 }
 
-void append(const Rgba& value, std::vector<float>& texels) {
-  for (const double component : value) texels.push_back(static_cast<float>(component));
+Material onLine(const TransferFunction::Line& line, double scalar) {
+  if (line.empty() || scalar < line.front().scalar || scalar > line.back().scalar) return {};
+  const auto upper = std::find_if(line.begin() + 1, line.end() - 1,
+                                  [&](const auto& point) { return point.scalar >= scalar; });
+  const auto& low = *(upper - 1);
+  const double w = (scalar - low.scalar) / (upper->scalar - low.scalar);
+  return {(1 - w) * low.material.colour + w * upper->material.colour,
+          (1 - w) * low.material.absorption + w * upper->material.absorption};
 }
-
-// Composites materials that are given at equal distances, front to back.
-class Accumulator {
- public:
-  void add(const Material& material, double length) {
-    const double alpha = -std::expm1(-material.absorption * length);
-    colour_ += transparency_ * alpha * material.colour;
-    transparency_ *= 1 - alpha;
-  }
-  Rgba result() const { return {colour_.x(), colour_.y(), colour_.z(), 1 - transparency_}; }
-
- private:
-  Eigen::Vector3d colour_ = {0, 0, 0};
-  double transparency_ = 1;
-};
 
 }  // namespace
 
 Material TransferFunction::at(double scalar) const {
   Material sum;
+  const auto add = [&](const Eigen::Vector3d& colour, double absorption) {
+    sum.colour += absorption * colour;
+    sum.absorption += absorption;
+  };
   for (const Bump& bump : bumps_) {
     const double d = (scalar - bump.centre) / bump.width;
-    const double absorption = bump.peak.absorption * std::exp(-0.5 * d * d);
-    sum.colour += absorption * bump.peak.colour;
-    sum.absorption += absorption;
+    add(bump.peak.colour, bump.peak.absorption * std::exp(-0.5 * d * d));
+  }
+  for (const Line& line : lines_) {
+    const Material material = onLine(line, scalar);
+    add(material.colour, material.absorption);
   }
   if (sum.absorption > 0) sum.colour /= sum.absorption;
   return sum;
+}
+
+double TransferFunction::finestDetail() const {
+  double finest = 0.25;
+  for (const Bump& bump : bumps_) finest = std::min(finest, bump.width);
+  for (const Line& line : lines_)
+    for (std::size_t i = 1; i < line.size(); ++i)
+      finest = std::min(finest, line[i].scalar - line[i - 1].scalar);
+  return finest;
 }
 
 const TransferFunction* TransferFunction::preset(const std::string& name) {
@@ -68,47 +80,16 @@ std::vector<std::string> TransferFunction::presets() {
 }
 
 Rgba slab(const TransferFunction& transfer, double front, double back, double length, int intervals) {
-  Accumulator sum;
+  Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+  double transparency = 1;
   for (int i = 0; i < intervals; ++i) {
     const double w = (i + 0.5) / intervals;
-    sum.add(transfer.at(front + w * (back - front)), length / intervals);
+    const Material material = transfer.at(front + w * (back - front));
+    const double alpha = -std::expm1(-material.absorption * length / intervals);
+    colour += transparency * alpha * material.colour;
+    transparency *= 1 - alpha;
   }
-  return sum.result();
-}
-
-std::vector<float> postClassificationTable(const TransferFunction& transfer, int n) {
-  std::vector<float> texels;
-  for (int i = 0; i < n; ++i) {
-    const Material material = transfer.at((i + 0.5) / n);
-    append({material.colour.x(), material.colour.y(), material.colour.z(), material.absorption}, texels);
-  }
-  return texels;
-}
-
-std::vector<float> preintegrationTable(const TransferFunction& transfer, double length, int n) {
-  // Two intervals a texel: the materials at their middles are shared by all slabs.
-  constexpr int kFiner = 2;
-  std::vector<Material> materials;
-  for (int i = 0; i < kFiner * n; ++i) materials.push_back(transfer.at((i + 0.5) / (kFiner * n)));
-
-  std::vector<float> texels;
-  for (int back = 0; back < n; ++back)
-    for (int front = 0; front < n; ++front) {
-      if (front == back) {
-        append(slab(transfer, (front + 0.5) / n, (back + 0.5) / n, length, 1), texels);
-        continue;
-      }
-      // From one texel's middle to the other's.
-      const int intervals = kFiner * std::abs(back - front);
-      Accumulator sum;
-      for (int i = 0; i < intervals; ++i) {
-        const int forwards =
-            back > front ? kFiner * front + kFiner / 2 + i : kFiner * front + kFiner / 2 - 1 - i;
-        sum.add(materials[static_cast<std::size_t>(forwards)], length / intervals);
-      }
-      append(sum.result(), texels);
-    }
-  return texels;
+  return {colour.x(), colour.y(), colour.z(), 1 - transparency};
 }
 
 }  // namespace raycaster

@@ -1,4 +1,4 @@
-// Classification: from scalars to colour and absorption, and the tables that a shader looks them up in.
+// Classification: from scalars to colour and absorption.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,29 @@ struct Material {
   double absorption = 0;               // kappa, per unit of object space
 };
 
-// A sum of bumps: the absorption adds up, the colour is their mean weighted by absorption.
+// A sum of bumps and lines: the absorption adds up, the colour is their mean weighted by absorption.
 class TransferFunction {
  public:
+  // A Gaussian: never quite zero.
   struct Bump {
     double centre;  // scalar value, 0..1
     double width;   // standard deviation, > 0
     Material peak;
   };
-  explicit TransferFunction(std::vector<Bump> bumps) : bumps_(std::move(bumps)) {}
+  // Colour and absorption linear between points of ascending scalars, nothing outside of them.
+  struct Point {
+    double scalar;
+    Material material;
+  };
+  using Line = std::vector<Point>;
+
+  explicit TransferFunction(std::vector<Bump> bumps, std::vector<Line> lines = {})
+      : bumps_(std::move(bumps)), lines_(std::move(lines)) {}
 
   Material at(double scalar) const;
+
+  // A distance of scalars over which nothing of interest can hide.
+  double finestDetail() const;
 
   // nullptr: no such preset. Their names are in presets().
   static const TransferFunction* preset(const std::string& name);
@@ -30,6 +42,7 @@ class TransferFunction {
 
  private:
   std::vector<Bump> bumps_;
+  std::vector<Line> lines_;
 };
 
 // Associated (premultiplied) colour and opacity.
@@ -38,11 +51,5 @@ using Rgba = Eigen::Vector4d;
 // What a slab of `length` adds in which the scalar goes linearly from `front` to `back`:
 // alpha = 1 - exp(-l int kappa), C = l int kappa c exp(-l int_0^w kappa) dw, by the midpoint rule.
 Rgba slab(const TransferFunction&, double front, double back, double length, int intervals);
-
-// Texel i of n stands for the scalar (i + 0.5) / n. RGBA32F texels, rows along the first argument.
-std::vector<float> postClassificationTable(const TransferFunction&,
-                                           int n = 256);  // n x 1: colour, absorption
-std::vector<float> preintegrationTable(const TransferFunction&, double length,
-                                       int n = 256);  // n x n: front, back
 
 }  // namespace raycaster

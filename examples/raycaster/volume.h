@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace raycaster {
@@ -40,5 +42,9 @@ Volume marschnerLobb(int size = 41);
 
 // `value` everywhere.
 Volume homogeneousCube(float value = 0.5F);
+
+// "c60", "cube", "sphere", "ramp" or "marschner-lobb"; empty if there is none of that name. The function
+// makes it.
+std::optional<std::function<Volume()>> syntheticVolume(const std::string& name);
 
 }  // namespace raycaster

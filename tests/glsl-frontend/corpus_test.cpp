@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "permutation.h"
 #include "shader_text.h"
 
 namespace shadestep::frontend {
@@ -85,13 +86,10 @@ TEST(Corpus, EmbeddedDialects) {
 }
 
 TEST(Corpus, RayCaster) {
-  for (const auto& entry : std::filesystem::directory_iterator(RAYCASTER_FOLDER)) {
-    const std::string source = read(entry.path());
-    if (entry.path().extension() == ".frag") {
-      EXPECT_NE(analysed(source).main, kNone);
-    } else if (entry.path().extension() == ".vert") {
-      EXPECT_NE(analysed(source, {}, Stage::vertex).main, kNone);
-    }
+  for (const raycaster::Permutation& permutation : raycaster::permutations()) {
+    const raycaster::ShaderText text = raycaster::shaderText(permutation);
+    EXPECT_NE(analysed(text.fragment).main, kNone) << text.fragment;
+    EXPECT_NE(analysed(text.vertex, {}, Stage::vertex).main, kNone) << text.vertex;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "permutation.h"
 #include "shader_text.h"
 
 namespace shadestep::frontend {
@@ -63,15 +64,17 @@ void expectReadable(const Shader& shader) {
 
 TEST(Scopes, AreVisibleAndOfTheirTypeInTheCorpus) {
   int shaders = 0;
-  for (const char* folder : {SHADER_FOLDER, RAYCASTER_FOLDER}) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().extension() != ".frag") continue;
-      std::ifstream file(entry.path());
-      std::stringstream source;
-      source << file.rdbuf();
-      expectReadable(analysed(source.str()));
-      ++shaders;
-    }
+  for (const auto& entry : std::filesystem::directory_iterator(SHADER_FOLDER)) {
+    if (entry.path().extension() != ".frag") continue;
+    std::ifstream file(entry.path());
+    std::stringstream source;
+    source << file.rdbuf();
+    expectReadable(analysed(source.str()));
+    ++shaders;
+  }
+  for (const auto glsl : {raycaster::Glsl::v120, raycaster::Glsl::v330}) {
+    expectReadable(analysed(raycaster::shaderText({.glsl = glsl}).fragment));
+    ++shaders;
   }
   EXPECT_GE(shaders, 8);
 }

@@ -7,6 +7,7 @@
 
 #include "camera.h"
 #include "reference.h"
+#include "tables.h"
 
 namespace raycaster {
 namespace {
@@ -74,12 +75,65 @@ TEST(Slab, AbsorptionIsTheIntegralAlongTheRamp) {
 TEST(PreintegrationTable, EqualsSlabsIntegratedOneByOne) {
   const TransferFunction transfer = *TransferFunction::preset("shells");
   const int n = 64;
-  const std::vector<float> table = preintegrationTable(transfer, 0.01, n);
+  const std::vector<float> table = classificationTable(transfer, Classification::preintegrated, 0.01, n);
   for (const auto& [front, back] : {std::pair{3, 60}, {60, 3}, {20, 21}, {31, 31}}) {
     const Rgba exact = slab(transfer, (front + 0.5) / n, (back + 0.5) / n, 0.01, 4000);
     for (int c = 0; c < 4; ++c)
       EXPECT_NEAR(table[static_cast<std::size_t>((back * n + front) * 4 + c)], exact[c], 5e-4)
           << front << " to " << back << ", component " << c;
+  }
+}
+
+TEST(FastTable, HasTheExactOpacityAndNoMoreColourThanOpacity) {
+  const TransferFunction transfer = *TransferFunction::preset("shells");
+  const int n = 64;
+  const auto exact = classificationTable(transfer, Classification::preintegrated, 0.1, n);
+  const auto fast = classificationTable(transfer, Classification::fast, 0.1, n);
+  double difference = 0;
+  for (std::size_t i = 0; i < exact.size(); i += 4) {
+    ASSERT_NEAR(fast[i + 3], exact[i + 3], 1e-6);
+    for (std::size_t c = 0; c < 3; ++c) {
+      ASSERT_LE(fast[i + c], fast[i + 3] * 1.0001F);
+      difference = std::max<double>(difference, std::abs(fast[i + c] - exact[i + c]));
+    }
+  }
+  EXPECT_GT(difference, 0.05);  // it does forget what hides what
+}
+
+// The ramp s = l, kappa = k0 s, c = s has a closed form (a = k0 / 2).
+TEST(Reference, IsTheClosedFormOnTheRamp) {
+  const Material material = TransferFunction::preset("ramp")->at(0.3);
+  EXPECT_DOUBLE_EQ(material.absorption, 1.2);
+  for (const double k0 : {0.1, 4.0, 60.0}) {
+    const Rgba value = integrate(
+        [&](double s) {
+          return Material{Eigen::Vector3d::Constant(s), k0 * s};
+        },
+        0, 1, 1e-12);
+    const double a = k0 / 2;
+    EXPECT_NEAR(value.w(), 1 - std::exp(-a), 1e-12);
+    EXPECT_NEAR(value.x(), -std::exp(-a) + std::sqrt(M_PI) / (2 * std::sqrt(a)) * std::erf(std::sqrt(a)),
+                1e-11);
+  }
+}
+
+// The adaptive quadrature over the smooth pieces, against many midpoints that know nothing of them.
+TEST(Reference, AgreesWithTheMidpointRule) {
+  const Volume volume = buckyball(32);
+  const TransferFunction transfer = *TransferFunction::preset("shells");
+  const Camera camera(volume.extent, {.yaw = 20, .pitch = 10});
+  for (const auto& [x, y] : {std::pair{30, 30}, {20, 37}, {41, 25}}) {
+    const Ray ray = camera.ray(x, y, 64);
+    const auto span = intersect(ray, volume.extent);
+    Rgba sum = Rgba::Zero();
+    constexpr int kCount = 100000;
+    for (int i = 0; i < kCount; ++i) {
+      const double distance = span->enter + (i + 0.5) / kCount * span->length();
+      const Material material = transfer.at(volume.at(ray.origin + distance * ray.direction));
+      const double weight = (1 - sum.w()) * -std::expm1(-material.absorption * span->length() / kCount);
+      sum += weight * Rgba(material.colour.x(), material.colour.y(), material.colour.z(), 1);
+    }
+    EXPECT_LT((integrate(ray, volume, transfer) - sum).cwiseAbs().maxCoeff(), 1e-7) << x << ", " << y;
   }
 }
 

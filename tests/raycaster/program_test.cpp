@@ -91,9 +91,9 @@ TEST_F(Program, LeavesNothingBehindWhenItCannotWrite) {
 
 TEST_F(Program, RefusesBadArgumentsWithASentence) {
   const std::vector<std::string> bad = {
-      "--size 0",     "--size 1.5",     "--size -3",         "--step 0",       "--step -1",  "--step nan",
-      "--step inf",   "--ert 1.5",      "--ert x",           "--context x",    "--glsl 150", "--volume x",
-      "--transfer x", "--frames 0",     "--out a.jpg",       "--distance 0.5", "--unknown",  "stray",
+      "--size 0",     "--size 1.5",     "--size -3",         "--step 0",      "--step -1",  "--step nan",
+      "--step inf",   "--ert 1.5",      "--ert x",           "--context x",   "--glsl 150", "--volume x",
+      "--transfer x", "--frames 0",     "--out a.jpg",       "--distance -1", "--unknown",  "stray",
       "--size",       "--distance nan", "--classification x"};
   for (const std::string& arguments : bad) {
     const Outcome outcome = run(arguments);

@@ -1,0 +1,32 @@
+// Which shaders a scene needs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shader_assembly.h"
+#include "tables.h"
+
+namespace raycaster {
+
+// One shader: every choice adds its lines and no others.
+struct Permutation {
+  Glsl glsl = Glsl::v330;
+  Classification classification = Classification::preintegrated;
+  bool earlyTermination = true;
+  bool inside = false;    // the camera may be inside the box: entry by intersection, not by rasterization
+  bool leaping = false;   // starts where the last frame's rays met something
+  bool adaptive = false;  // slabs as long as an oracle allows
+  bool counting = false;  // puts out how many texels a ray fetched, instead of its colour
+};
+
+// All that can be drawn with.
+std::vector<Permutation> permutations();
+
+struct ShaderText {
+  Glsl glsl;
+  std::string vertex, fragment;
+};
+ShaderText shaderText(const Permutation&);
+
+}  // namespace raycaster
