@@ -13,6 +13,7 @@
 #include <string>
 
 #include "interceptor/agent/stop.h"
+#include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
@@ -185,12 +186,19 @@ void onExit() {
 namespace shadestep::calls {
 
 void onDraw(const DrawCall& call) {
+  if (compilesOnly()) return;
   wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
   const std::uint64_t draw = status.draw.fetch_add(1, agent::kRelaxed);
   status.draws.fetch_add(1, agent::kRelaxed);
   if (!agent::armed.load(agent::kRelaxed)) return;
   const std::uint64_t frame = status.frame.load(agent::kRelaxed);
   if (agent::reached(frame, draw)) agent::stopAtDraw(call, frame, draw);
+}
+
+bool stopsAtNextDraw() {
+  if (!agent::armed.load(agent::kRelaxed)) return false;
+  const wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
+  return agent::reached(status.frame.load(agent::kRelaxed), status.draw.load(agent::kRelaxed));
 }
 
 void onPresent() {

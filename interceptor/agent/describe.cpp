@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "interceptor/calls/display_lists.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/guard/guards.h"
@@ -82,9 +83,15 @@ bool feedbackUnpausable(const guard::ContextFacts& facts) {
 
 // Why the draw cannot be replayed here, or "".
 std::string replayReason(const calls::DrawCall& call, const guard::ContextFacts& facts) {
-  if (call.replay == nullptr) return std::string(call.name) + " draws cannot be replayed yet";
+  if (call.replay == nullptr) {
+    return call.reason != nullptr ? call.reason : std::string(call.name) + " draws cannot be replayed yet";
+  }
   if (facts.compatibility()) {
     if (integer(GL_LIST_INDEX) != 0) return "the call is being compiled into a display list";
+    const std::string name = call.name;
+    if (name.starts_with("glCallList")) {
+      if (std::string obstacle = calls::listObstacle(); !obstacle.empty()) return obstacle;
+    }
     if (integer(GL_RENDER_MODE) != GL_RENDER)
       return "the draw is made for selection or feedback and writes no pixels";
   }

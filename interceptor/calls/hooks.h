@@ -26,14 +26,20 @@ struct DrawCall {
                        // known on the CPU (indirect, transform feedback, display list)
   std::int64_t instances;  // 1 if not instanced; -1: not known on the CPU
   // Makes the same call again with the same arguments, straight to the driver: replay(arguments).
-  // Null: cannot be replayed by repeating the call (glBegin, display lists).
+  // Null: cannot be replayed by repeating the call; `reason` may say why.
   void (*replay)(const void* arguments);
   const void* arguments;
+  const char* reason = nullptr;
 };
 
 // Before the real call of every draw. On the program's hot path: cheap unless it stops.
-// A glBegin/glEnd pair is one draw, told at glBegin.
 void onDraw(const DrawCall& call);
+// Whether onDraw would stop at the next draw, as far as is known now.
+bool stopsAtNextDraw();
+
+// Whether this thread compiles a display list; what then comes that makes calls of it impossible to replay.
+extern constinit thread_local bool compilesLists;
+void noteListed(const char* reason);
 
 // Before the real glXSwapBuffers, eglSwapBuffers, eglSwapBuffersWithDamage{EXT,KHR}: the frame ends here.
 void onPresent();

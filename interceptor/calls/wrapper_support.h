@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/dispatch/driver_scope.h"

@@ -7,6 +7,7 @@ Everything unknown or contradictory is an error: nothing is lost silently.
 
 from __future__ import annotations
 
+import fnmatch
 import re
 import tomllib
 import xml.etree.ElementTree as ElementTree
@@ -38,6 +39,7 @@ class Draw:
     instances: str | None = None
     indirect: bool = False
     replay: bool = True
+    within: str | None = None
 
 
 @dataclass
@@ -48,6 +50,7 @@ class Command:
     alias: str | None = None  # the registry's own name for the same command
     draw: Draw | None = None
     presents: bool = False
+    listed: str | None = None  # why a display list with this command cannot be replayed
     hooks: frozenset[str] = frozenset()
     hook_name: str = ""  # the command whose hooks are called: itself, or the one that it is an alias of
 
@@ -187,7 +190,7 @@ HOOKS = {"before", "after", "replace"}
 def apply_overlay(path: Path, apis: list[Api]) -> None:
     """Adds the overlay's meaning to the commands that it names and to their aliases."""
     overlay = tomllib.loads(path.read_text())
-    unknown = set(overlay) - {"draws", "not_draws", "present", "hooks"}
+    unknown = set(overlay) - {"draws", "not_draws", "present", "lists", "hooks"}
     if unknown:
         raise RegistryError(f"overlay: unknown section {sorted(unknown)}")
     commands = {c.name: c for api in apis for c in api.commands}
@@ -211,6 +214,13 @@ def apply_overlay(path: Path, apis: list[Api]) -> None:
             raise RegistryError(f"overlay: {name} both draws and does not")
     for name in overlay["present"]["commands"]:
         named(name).presents = True
+    for reason, patterns in overlay["lists"].items():
+        for pattern in patterns:
+            matching = [c for c in commands.values() if fnmatch.fnmatchcase(c.name, pattern)]
+            if not matching:
+                raise RegistryError(f"overlay: no registry has a command {pattern}")
+            for command in matching:
+                command.listed = reason
     for name, kinds in overlay["hooks"].items():
         if not set(kinds) <= HOOKS or ("replace" in kinds and len(kinds) > 1):
             raise RegistryError(f"overlay: {name}: hooks are before and after, or replace, not {kinds}")
@@ -230,7 +240,15 @@ def _translated(draw: Draw, base: Command, alias: Command) -> Draw:
     def role(name: str | None) -> str | None:
         return names.get(name, name) if name else None
 
-    return Draw(role(draw.mode), role(draw.count), role(draw.parts), role(draw.instances), draw.indirect, draw.replay)
+    return Draw(
+        role(draw.mode),
+        role(draw.count),
+        role(draw.parts),
+        role(draw.instances),
+        draw.indirect,
+        draw.replay,
+        draw.within,
+    )
 
 
 def _checked(draw: Draw, command: Command) -> Draw:

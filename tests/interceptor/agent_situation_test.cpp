@@ -72,9 +72,7 @@ TEST_P(Refusals, sayWhyAndLeaveTheProgramAlone) {
 INSTANTIATE_TEST_SUITE_P(Situations, Refusals,
                          testing::Values(Refused{"deleted-program", "deleted while in use"},
                                          Refused{"fixed-function", "no GLSL program"},
-                                         Refused{"immediate-mode", "glBegin draws cannot be replayed"},
-                                         Refused{"display-list", "display list"}, Refused{"query", "query"},
-                                         Refused{"condition", "condition"},
+                                         Refused{"query", "query"}, Refused{"condition", "condition"},
                                          Refused{"no-rasterizer", "GL_RASTERIZER_DISCARD"},
                                          Refused{"multisampled", "multisampled"},
                                          Refused{"pipeline", "pipeline"},
@@ -112,6 +110,18 @@ void expectHalfEverywhere(Session& session, const std::string& expression) {
     ASSERT_EQ(std::vector<std::uint32_t>(&words[i], &words[i] + 4),
               (std::vector<std::uint32_t>{word(0.5F), 1, 2, 3}));
   }
+}
+
+TEST(Situations, immediateModeIsReplayed) {
+  Session session(SITUATION, "immediate-mode", "");
+  expectHalfEverywhere(session, "0.5");
+  end(session);
+}
+
+TEST(Situations, displayListsAreReplayed) {
+  Session session(SITUATION, "display-list", "");
+  expectHalfEverywhere(session, "0.5");
+  end(session);
 }
 
 TEST(Situations, transformFeedbackPausesForReplays) {

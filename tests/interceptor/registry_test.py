@@ -126,7 +126,7 @@ class Model(unittest.TestCase):
         self.assertEqual(self.command("glShaderSourceARB").hook_name, "glShaderSource")
 
     def overlay_fails(self, text, message):
-        sections = {"draws": "", "not_draws": "", "present": "commands = []", "hooks": ""} | text
+        sections = {"draws": "", "not_draws": "", "present": "commands = []", "lists": "", "hooks": ""} | text
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "overlay.toml"
             path.write_text("\n".join(f"[{name}]\n{body}" for name, body in sections.items()))
@@ -139,6 +139,7 @@ class Model(unittest.TestCase):
         self.overlay_fails({"hooks": 'glFinish = ["instead"]'}, "hooks are before and after, or replace")
         self.overlay_fails({"hooks": 'glFinish = ["after", "replace"]'}, "hooks are before and after, or replace")
         self.overlay_fails({"draws": "glBegin = {}", "not_draws": 'why = ["glBegin"]'}, "both draws and does not")
+        self.overlay_fails({"lists": '"clears" = ["glClearNothing*"]'}, "no registry has a command glClearNothing")
         self.overlay_fails({"extra": ""}, "unknown section")
 
     def test_mistakes_in_the_xml_are_said(self):
