@@ -82,7 +82,6 @@ class DrawCalls : public testing::Test {
     driver.MultiDrawArrays = [](GLenum, const GLint*, const GLsizei*, GLsizei) { made.push_back("multi"); };
     driver.DrawArraysInstancedARB = [](GLenum, GLint, GLsizei, GLsizei) { made.push_back("arb"); };
     driver.DrawArraysIndirect = [](GLenum, const void*) { made.push_back("indirect"); };
-    driver.Begin = [](GLenum) { made.push_back("begin"); };
     driver.Rectd = [](GLdouble a, GLdouble b, GLdouble c, GLdouble d) {
       made.push_back("rect" + joined({static_cast<std::uintptr_t>(a), static_cast<std::uintptr_t>(b),
                                       static_cast<std::uintptr_t>(c), static_cast<std::uintptr_t>(d)}));
