@@ -30,4 +30,18 @@ ShaderText shaderText(const Permutation& permutation) {
           assemble("raycast.frag", permutation.glsl, words)};
 }
 
+ShaderText shaderText(const SpectralPermutation& permutation) {
+  std::set<std::string> words;
+  const auto say = [&](bool needed, const char* word) {
+    if (needed) words.insert(word);
+  };
+  say(permutation.storage == Storage::coefficients, "storedCoefficients");
+  say(permutation.storage == Storage::opacity, "storedOpacity");
+  say(permutation.scattering, "scattering");
+  say(permutation.refraction, "refraction");
+  say(permutation.counting, "counting");
+  return {permutation.glsl, assemble("raycast.vert", permutation.glsl, {}),
+          assemble("spectral.frag", permutation.glsl, words)};
+}
+
 }  // namespace raycaster

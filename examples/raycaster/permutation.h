@@ -23,10 +23,23 @@ struct Permutation {
 // All that can be drawn with.
 std::vector<Permutation> permutations();
 
+// How a table keeps the Kubelka-Munk properties of a scalar: absorption and scattering per length, or
+// reflectance of a whole slab with its transmittance T or with 1 - T.
+enum class Storage { coefficients, transmittance, opacity };
+
+struct SpectralPermutation {
+  Glsl glsl = Glsl::v330;
+  Storage storage = Storage::coefficients;
+  bool scattering = true;   // without: one exponential a wavelength and ray
+  bool refraction = false;  // bends rays step by step
+  bool counting = false;
+};
+
 struct ShaderText {
   Glsl glsl;
   std::string vertex, fragment;
 };
 ShaderText shaderText(const Permutation&);
+ShaderText shaderText(const SpectralPermutation&);
 
 }  // namespace raycaster

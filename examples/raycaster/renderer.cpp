@@ -3,20 +3,6 @@
 #include <stdexcept>
 
 namespace raycaster {
-namespace {
-
-// What a camera sees: a rectangle in front of it, for rays that do not begin on the box.
-void setView(Mesh& mesh, const Camera& camera) {
-  std::vector<float> corners;
-  for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
-    const Eigen::Vector3d corner = camera.corner(x, y);
-    for (const double component : corner) corners.push_back(static_cast<float>(component));
-  }
-  mesh.set(corners, {0, 1, 2, 0, 2, 3});
-}
-
-}  // namespace
-
 Permutation permutationFor(const Scene& scene, Glsl glsl, const Camera& camera) {
   return {.glsl = glsl, .classification = scene.classification, .inside = !camera.outside()};
 }
@@ -52,22 +38,31 @@ void Renderer::draw(const Camera& camera) {
 }
 
 void Renderer::copyToWindow() {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  gl_.BlitFramebuffer(0, 0, size_, size_, 0, 0, size_, size_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  copyFramebuffer(gl_, framebuffer_, size_);
 }
 
 Image Renderer::read() {
   return readImage(gl_, framebuffer_, size_);
 }
 
-void createSceneTextures(const Gl& gl, Objects& objects, const Scene& scene) {
-  const Eigen::Vector3i size = scene.volume.size;
+void setView(Mesh& mesh, const Camera& camera) {
+  std::vector<float> corners;
+  for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+    const Eigen::Vector3d corner = camera.corner(x, y);
+    for (const double component : corner) corners.push_back(static_cast<float>(component));
+  }
+  mesh.set(corners, {0, 1, 2, 0, 2, 3});
+}
+
+void createVolumeTexture(const Gl& gl, Objects& objects, const Volume& volume) {
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   objects.texture(GL_TEXTURE0, GL_TEXTURE_3D);
-  gl.TexImage3D(GL_TEXTURE_3D, 0, GL_R32F, size.x(), size.y(), size.z(), 0, GL_RED, GL_FLOAT,
-                scene.volume.voxels.data());
+  gl.TexImage3D(GL_TEXTURE_3D, 0, GL_R32F, volume.size.x(), volume.size.y(), volume.size.z(), 0, GL_RED,
+                GL_FLOAT, volume.voxels.data());
+}
 
+void createSceneTextures(const Gl& gl, Objects& objects, const Scene& scene) {
+  createVolumeTexture(gl, objects, scene.volume);
   const int n = scene.tableSize;
   const GLint format = colourFormat(scene.tableBits);
   const std::vector<float> table = classificationTable(scene.transfer, scene.classification, scene.step, n);
@@ -87,6 +82,12 @@ void setSceneUniforms(const Gl& gl, GLuint program, const Scene& scene) {
   setUniform(gl, program, "stepSize", scene.step);
   setUniform(gl, program, "opacityLimit",
              scene.opacityLimit > 0 ? scene.opacityLimit : 2);  // none gets above 1
+}
+
+void copyFramebuffer(const Gl& gl, GLuint framebuffer, int size) {
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  gl.BlitFramebuffer(0, 0, size, size, 0, 0, size, size, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 Image readImage(const Gl& gl, GLuint framebuffer, int size) {

@@ -46,10 +46,16 @@ class Renderer {
   GLuint framebuffer_ = 0;
 };
 
+// What a camera sees: a rectangle in front of it, for rays that do not begin on the box.
+void setView(Mesh&, const Camera&);
+// The volume in unit 0.
+void createVolumeTexture(const Gl&, Objects&, const Volume&);
 // The volume in unit 0 and the classification table in unit 1.
 void createSceneTextures(const Gl&, Objects&, const Scene&);
 // The uniforms that all ways to draw a scene share.
 void setSceneUniforms(const Gl&, GLuint program, const Scene&);
+// A framebuffer's first target to the default framebuffer, of the same size.
+void copyFramebuffer(const Gl&, GLuint framebuffer, int size);
 // The pixels of a framebuffer's first target.
 Image readImage(const Gl&, GLuint framebuffer, int size);
 

@@ -91,6 +91,12 @@ TEST(Corpus, RayCaster) {
     EXPECT_NE(analysed(text.fragment).main, kNone) << text.fragment;
     EXPECT_NE(analysed(text.vertex, {}, Stage::vertex).main, kNone) << text.vertex;
   }
+  for (const auto glsl : {raycaster::Glsl::v120, raycaster::Glsl::v330})
+    for (const bool refraction : {false, true}) {
+      const auto text =
+          raycaster::shaderText(raycaster::SpectralPermutation{.glsl = glsl, .refraction = refraction});
+      EXPECT_NE(analysed(text.fragment).main, kNone) << text.fragment;
+    }
 }
 
 }  // namespace

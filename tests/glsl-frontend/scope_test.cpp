@@ -73,7 +73,7 @@ TEST(Scopes, AreVisibleAndOfTheirTypeInTheCorpus) {
     ++shaders;
   }
   for (const auto glsl : {raycaster::Glsl::v120, raycaster::Glsl::v330}) {
-    expectReadable(analysed(raycaster::shaderText({.glsl = glsl}).fragment));
+    expectReadable(analysed(raycaster::shaderText(raycaster::Permutation{.glsl = glsl}).fragment));
     ++shaders;
   }
   EXPECT_GE(shaders, 8);
