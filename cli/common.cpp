@@ -56,6 +56,23 @@ void addSelectionOptions(CLI::App& app, Common& common) {
       ->type_name("STAGE");
 }
 
+void addFrameOptions(CLI::App& command, Common& common, std::string& frames) {
+  command.add_option("--frame", common.frame, "the frame, 0-based")->type_name("N");
+  command.add_option("--frames", frames, "frames A to B (default 0..0)")->type_name("A..B");
+}
+
+std::pair<std::uint64_t, std::uint64_t> frameRange(const Common& common, const std::string& frames) {
+  if (frames.empty()) return {common.frame, common.frame};
+  std::string range = frames;
+  if (const auto dots = range.find(".."); dots != std::string::npos) range.replace(dots, 2, ",");
+  const std::vector<int> numbers = parseIntegers(range, "--frames", 1, 2);
+  if (numbers.front() < 0 || numbers.back() < numbers.front()) {
+    throw session::Error(session::Outcome::usage,
+                         "--frames takes A..B with 0 <= A <= B, not '" + frames + "'");
+  }
+  return {static_cast<std::uint64_t>(numbers.front()), static_cast<std::uint64_t>(numbers.back())};
+}
+
 std::vector<int> parseIntegers(const std::string& text, const std::string& option, std::size_t at_least,
                                std::size_t at_most) {
   std::vector<int> numbers;

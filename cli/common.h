@@ -39,6 +39,10 @@ using Action = std::function<int()>;
 void addCommonOptions(CLI::App&, Common&);
 void addSelectionOptions(CLI::App&, Common&);  // --frame --draw --stage
 
+// --frame N, or --frames A..B into `frames`; what they mean: first and last. Throws usage.
+void addFrameOptions(CLI::App&, Common&, std::string& frames);
+std::pair<std::uint64_t, std::uint64_t> frameRange(const Common&, const std::string& frames);
+
 // "X,Y" or "A,B,C" as integers; throws Error{usage} naming the option.
 std::vector<int> parseIntegers(const std::string& text, const std::string& option, std::size_t at_least,
                                std::size_t at_most);
@@ -62,6 +66,7 @@ std::string withThousands(std::uint64_t value);
 // ---- the commands, a file each --------------------------------------------------------------------------
 void addRun(CLI::App&, Common&, Action&);
 void addDraws(CLI::App&, Common&, Action&);
+void addCalls(CLI::App&, Common&, Action&);
 void addSource(CLI::App&, Common&, Action&);
 void addDebug(CLI::App&, Common&, Action&);
 void addStep(CLI::App&, Common&, Action&);

@@ -27,4 +27,20 @@ std::string primitiveModeName(std::uint32_t mode) {
   return text;
 }
 
+std::string errorName(std::uint32_t error) {
+  static constexpr std::array<const char*, 8> kNames = {"GL_INVALID_ENUM",
+                                                        "GL_INVALID_VALUE",
+                                                        "GL_INVALID_OPERATION",
+                                                        "GL_STACK_OVERFLOW",
+                                                        "GL_STACK_UNDERFLOW",
+                                                        "GL_OUT_OF_MEMORY",
+                                                        "GL_INVALID_FRAMEBUFFER_OPERATION",
+                                                        "GL_CONTEXT_LOST"};
+  constexpr std::uint32_t kFirst = 0x0500;
+  if (error >= kFirst && error - kFirst < kNames.size()) return kNames[error - kFirst];
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%x", error);
+  return text;
+}
+
 }  // namespace shadestep::cli

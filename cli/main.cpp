@@ -30,6 +30,7 @@ int runCommandLine(int argc, char** argv) {
   cli::Action action;
   cli::addRun(app, common, action);
   cli::addDraws(app, common, action);
+  cli::addCalls(app, common, action);
   cli::addSource(app, common, action);
   cli::addDebug(app, common, action);
   cli::addStep(app, common, action);

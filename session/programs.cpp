@@ -128,6 +128,10 @@ std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) 
       wire::Packet packet;
       if (peer.channel.receive(packet, 0) != wire::Received::message) continue;  // closed: dropped below
       std::unique_ptr<wire::MessageT> message(wire::UnPackMessage(packet.bytes.data()));
+      if (const wire::CallsT* calls = message->body.AsCalls()) {
+        if (call_sink_) call_sink_(*calls);
+        continue;
+      }
       if (const wire::ExitingT* exiting = message->body.AsExiting()) {
         noteLast(peer);
         last_.orderly = true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ class Programs {
   void setPolicy(const wire::ResumeT& policy) { policy_ = policy; }
   void resumeStopped();
 
+  // Who hears of the calls that the policy's `watch` asks for.
+  void setCallSink(std::function<void(const wire::CallsT&)> sink) { call_sink_ = std::move(sink); }
+
   // Waits until a process stops (Stopped, FrameEnded), and returns its message; null when all have ended.
   // Throws Error{ended} at the deadline.
   std::unique_ptr<wire::MessageT> waitForStop(const Deadline&);
@@ -73,6 +77,7 @@ class Programs {
   std::vector<std::unique_ptr<Peer>> peers_;
   Peer* stopped_ = nullptr;
   wire::ResumeT policy_;
+  std::function<void(const wire::CallsT&)> call_sink_;
   LastSeen last_;
 };
 

@@ -160,6 +160,23 @@ struct Captured {
   Execution execution;  // its attachments are moved into `threads`
 };
 
+// A call that the program made.
+struct LoggedCall {
+  std::uint64_t frame = 0;
+  std::uint64_t index = 0;  // in its frame, among all calls
+  int thread = 0;
+  std::string name;
+  std::vector<std::pair<std::string, std::string>>
+      arguments;            // name, value: 7, GL_TRIANGLES, {1, 2}, "text", 0x55d0
+  std::string result;       // empty if the call returns nothing
+  std::uint32_t error = 0;  // what glGetError said after it; 0 = nothing
+};
+struct CallFilter {
+  std::uint64_t first_frame = 0, last_frame = 0;
+  std::vector<std::string> names;  // patterns (*, ?, [...]); none = all
+  bool errors_only = false;        // only calls that the driver answered with an error
+};
+
 struct Progress {
   std::uint64_t frames = 0;
   std::uint64_t draws = 0;
@@ -178,6 +195,9 @@ class Session {
   // Visits every draw of frames first..last; `visit` may describe and capture. Returns draws per frame.
   std::vector<std::uint64_t> forEachDraw(std::uint64_t first, std::uint64_t last,
                                          const std::function<void(const DrawStop&)>& visit);
+  // Visits the GL, GLX, EGL and OSMesa calls of the frames, and runs to the end of the last one, or of the
+  // program. Throws ended if the program stops before the first of these frames.
+  void forEachCall(const CallFilter&, const std::function<void(const LoggedCall&)>& visit);
   // Runs on to the program's own end, returns its exit status as a shell gives it (128 + signal).
   int runToEnd();
   // Ends the program now.

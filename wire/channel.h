@@ -12,7 +12,7 @@
 namespace shadestep::wire {
 
 // Raised when the schema or StatusPage change their meaning; Hello carries it.
-inline constexpr std::uint32_t kProtocol = 1;
+inline constexpr std::uint32_t kProtocol = 2;
 
 // Environment variable by which the session tells the agent the (abstract) socket name.
 inline constexpr const char* kSocketVariable = "SHADESTEP_SOCKET";

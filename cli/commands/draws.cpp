@@ -89,21 +89,7 @@ void printDraw(std::uint64_t frame, const Json& draw) {
 }
 
 int run(const Common& common, const Options& options) {
-  std::uint64_t first = common.frame;
-  std::uint64_t last = common.frame;
-  if (!options.frames.empty()) {
-    std::string range = options.frames;
-    const auto dots = range.find("..");
-    if (dots != std::string::npos) range.replace(dots, 2, ",");
-    const std::vector<int> numbers = parseIntegers(range, "--frames", 1, 2);
-    if (numbers.front() < 0 || numbers.back() < numbers.front()) {
-      throw session::Error(session::Outcome::usage,
-                           "--frames takes A..B with 0 <= A <= B, not '" + options.frames + "'");
-    }
-    first = static_cast<std::uint64_t>(numbers.front());
-    last = static_cast<std::uint64_t>(numbers.back());
-  }
-
+  const auto [first, last] = frameRange(common, options.frames);
   session::Session session(common.launchOptions());
   Json frames = Json::array();
   const auto frameEntry = [&](std::uint64_t number) -> Json& {
@@ -137,8 +123,7 @@ void addDraws(CLI::App& app, Common& common, Action& action) {
   CLI::App* command = app.add_subcommand("draws", "list the draws of one or more frames");
   auto options = std::make_shared<Options>();
   addCommonOptions(*command, common);
-  command->add_option("--frame", common.frame, "the frame, 0-based")->type_name("N");
-  command->add_option("--frames", options->frames, "frames A to B (default 0..0)")->type_name("A..B");
+  addFrameOptions(*command, common, options->frames);
   command->callback(
       [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });
 }

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <string>
 
+#include "interceptor/agent/call_log.h"
 #include "interceptor/agent/stop.h"
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
@@ -72,11 +73,13 @@ void obey(const wire::ResumeT& resume) {
   stop_draw.store(resume.draw, kRelaxed);
   report_frames.store(resume.report_frames, kRelaxed);
   armed.store(resume.stop, kRelaxed);
+  watchCalls(resume.watch.get());
 }
 
 void letGo(wire::Channel& channel) {
   connected.store(false, kRelaxed);
   armed.store(false, kRelaxed);
+  watchCalls(nullptr);
   channel.close();
 }
 
@@ -105,6 +108,7 @@ Reply notAtADraw(const wire::MessageT&) {
 }
 
 void stopAtDraw(const calls::DrawCall& call, std::uint64_t frame, std::uint64_t draw) {
+  sendCalls();
   Connection& session = connection();
   const std::lock_guard lock(session.mutex);
   // Another thread may have stopped meanwhile, and the session asked for something else.
@@ -115,6 +119,7 @@ void stopAtDraw(const calls::DrawCall& call, std::uint64_t frame, std::uint64_t 
 }
 
 void stopAtFrameEnd(std::uint64_t frame, std::uint64_t draws) {
+  sendCalls();
   Connection& session = connection();
   const std::lock_guard lock(session.mutex);
   if (!armed.load(kRelaxed)) return;
@@ -134,6 +139,7 @@ std::string programPath() {
 // A forked child has its parent's socket and page: it leaves both alone.
 void inForkedChild() {
   armed.store(false, kRelaxed);
+  watchCalls(nullptr);
   const wire::StatusPage* parents = page.load(kRelaxed);
   own_page.frame.store(parents->frame.load(kRelaxed), kRelaxed);
   own_page.draw.store(parents->draw.load(kRelaxed), kRelaxed);
@@ -144,6 +150,21 @@ void inForkedChild() {
 }
 
 }  // namespace
+
+void sendToSession(wire::CallsT&& calls, bool wait) {
+  Connection& session = connection();
+  std::unique_lock lock(session.mutex, std::defer_lock);
+  if (wait) {
+    lock.lock();
+  } else if (!lock.try_lock()) {
+    return;
+  }
+  if (session.channel.open() && !sendBody(session.channel, std::move(calls))) letGo(session.channel);
+}
+
+std::uint64_t currentFrame() {
+  return page.load(kRelaxed)->frame.load(kRelaxed);
+}
 
 void onLoad() {
   const char* socket = std::getenv(wire::kSocketVariable);
@@ -168,6 +189,7 @@ void onLoad() {
 
 void onExit() {
   if (!connected.load(kRelaxed)) return;
+  sendCalls(/*at_exit=*/true);
   // Not waiting: a signal handler may end the program on the very thread that is stopped.
   Connection& session = connection();
   const std::unique_lock lock(session.mutex, std::try_to_lock);
@@ -202,6 +224,7 @@ bool stopsAtNextDraw() {
 }
 
 void onPresent() {
+  agent::endFrameOfCalls();
   wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
   const std::uint64_t draws = status.draw.exchange(0, agent::kRelaxed);
   const std::uint64_t frame = status.frame.fetch_add(1, agent::kRelaxed);

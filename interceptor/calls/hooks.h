@@ -37,6 +37,9 @@ void onDraw(const DrawCall& call);
 // Whether onDraw would stop at the next draw, as far as is known now.
 bool stopsAtNextDraw();
 
+// Whether this thread is between glBegin and glEnd, where nothing may be asked.
+bool betweenBeginAndEnd();
+
 // Whether this thread compiles a display list; what then comes that makes calls of it impossible to replay.
 extern constinit thread_local bool compilesLists;
 void noteListed(const char* reason);

@@ -16,6 +16,8 @@ using dispatch::gl;
 constinit thread_local GLuint list = 0;
 constinit thread_local GLenum list_mode = 0;
 
+constinit thread_local bool between = false;
+
 DrawCall told(GLenum mode) {
   return {
       .name = "glBegin", .mode = mode, .count = -1, .instances = 1, .replay = nullptr, .arguments = nullptr};
@@ -42,7 +44,12 @@ const char* obstacle() {
 
 }  // namespace
 
+bool betweenBeginAndEnd() {
+  return between;
+}
+
 void replace_glBegin(GLenum mode) {
+  between = true;
   if (list == 0 && !compilingList() && stopsAtNextDraw()) {
     const char* const reason = obstacle();
     if (reason == nullptr) list = gl().GenLists(1);
@@ -62,6 +69,7 @@ void replace_glBegin(GLenum mode) {
 
 void replace_glEnd() {
   gl().End();
+  between = false;
   if (list == 0) return;
   gl().EndList();
   const GLuint drawn = list;

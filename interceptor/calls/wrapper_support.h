@@ -5,6 +5,7 @@
 
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
+#include "interceptor/calls/watch.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/dispatch/driver_scope.h"
 #include "interceptor/dispatch/resolve.h"

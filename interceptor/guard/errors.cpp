@@ -64,6 +64,12 @@ ErrorGuard::~ErrorGuard() {
   clearErrors();
 }
 
+GLenum peekError() {
+  const GLenum error = dispatch::gl().GetError();
+  if (error != GL_NO_ERROR) keep(dispatch::currentContext(), error);
+  return error;
+}
+
 GLenum programError() {
   if (waiting_count.load(std::memory_order_relaxed) > 0) {
     const GLenum error = take(dispatch::currentContext());

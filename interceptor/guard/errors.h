@@ -18,6 +18,9 @@ class ErrorGuard {
   ErrorGuard& operator=(const ErrorGuard&) = delete;
 };
 
+// What the driver's error flag says now; the program will still be told. GL_NO_ERROR if nothing.
+GLenum peekError();
+
 // What glGetError tells the program: a waiting error of its current context first, then the driver's.
 GLenum programError();
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import jinja2
 
+import call_names
 import model
 
 FOLDER = Path(__file__).resolve().parent
@@ -29,6 +30,7 @@ def outputs(apis: list[model.Api], shards: int) -> dict[str, tuple[str, dict]]:
         "state_names.h": ("state_names.h.jinja", {}),
         "gl_declarations.h": ("declarations.h.jinja", {}),
         "commands.cpp": ("commands.cpp.jinja", {}),
+        "call_descriptions.cpp": ("call_descriptions.cpp.jinja", {"names": call_names.Names(apis)}),
         "idle_hooks.cpp": ("idle_hooks.cpp.jinja", {}),
     }
     for api in apis:

@@ -23,6 +23,8 @@ class RegistryError(Exception):
 class Parameter:
     type: str  # "const void *const*"
     name: str  # "indices"
+    group: str | None = None  # of an enumerant or a bitmask: "PrimitiveType"
+    length: str | None = None  # of an array, in elements: "4", "count*2", "COMPSIZE(pname)"
 
     @property
     def declaration(self) -> str:
@@ -47,6 +49,7 @@ class Command:
     name: str
     result: str  # "void", "const GLubyte *"
     parameters: list[Parameter]
+    result_group: str | None = None
     alias: str | None = None  # the registry's own name for the same command
     draw: Draw | None = None
     presents: bool = False
@@ -138,8 +141,10 @@ def _command(element: ElementTree.Element, path: Path) -> Command:
         name=name,
         result=_type_before_name(prototype, path),
         parameters=[
-            Parameter(_type_before_name(p, path), _spelt(p, "name", path)) for p in element.findall("param")
+            Parameter(_type_before_name(p, path), _spelt(p, "name", path), p.get("group"), p.get("len"))
+            for p in element.findall("param")
         ],
+        result_group=prototype.get("group"),
         alias=None if alias is None else alias.get("name"),
     )
 
