@@ -33,12 +33,27 @@ void PrintTo(const Case& given, std::ostream* out) {
   *out << given.name;
 }
 
+// In arguments: the first line inside the ray caster's loop.
+const std::string kInLoop = "LINE_IN_LOOP";
+
+std::string lineInLoop(const Scratch& scratch) {
+  int loop = 0;
+  for (const Json& site : scratch.shadestep({"source", "--json"}, kRaycaster).json().at("sites")) {
+    if (site.at("kind") == "for") loop = site.at("line");
+    if (loop > 0 && site.at("line") > loop) return site.at("line").dump();
+  }
+  return "no loop";
+}
+
 class BadInput : public testing::TestWithParam<Case> {};
 
 TEST_P(BadInput, IsSaidWithItsExitCode) {
   const Case& given = GetParam();
   const Scratch scratch;
-  expectRefusal(scratch.shadestep(given.arguments, given.program), given.status, given.words);
+  std::vector<std::string> arguments = given.arguments;
+  for (std::string& argument : arguments)
+    if (argument == kInLoop) argument = lineInLoop(scratch);
+  expectRefusal(scratch.shadestep(arguments, given.program), given.status, given.words);
   EXPECT_THAT(scratch.files(), IsEmpty());
 }
 
@@ -61,17 +76,17 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"PixelNotCovered", {"debug", "--pixel", "0,0"}, kRaycaster, 3, "no fragment on pixel 0,0"},
         Case{"NoSuchLine", {"debug", "--at", "9999", "--print", "dst"}, kRaycaster, 3, "hold statements"},
         Case{"NoSuchVariable",
-             {"debug", "--at", "65", "--print", "nothing_like_it"},
+             {"debug", "--at", kInLoop, "--print", "nothing_like_it"},
              kRaycaster,
              3,
              "nothing_like_it"},
         Case{"NoSuchIteration",
-             {"debug", "--at", "67", "--iteration", "4000", "--print", "pos"},
+             {"debug", "--at", kInLoop, "--iteration", "4000", "--print", "pos"},
              kRaycaster,
              3,
              "none of the"},
         Case{"TooManyIterations",
-             {"debug", "--at", "67", "--iteration", "1,2", "--print", "pos"},
+             {"debug", "--at", kInLoop, "--iteration", "1,2", "--print", "pos"},
              kRaycaster,
              3,
              "lies in 1 loop"},
