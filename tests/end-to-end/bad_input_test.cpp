@@ -37,8 +37,9 @@ void PrintTo(const Case& given, std::ostream* out) {
 const std::string kInLoop = "LINE_IN_LOOP";
 
 std::string lineInLoop(const Scratch& scratch) {
+  const Json source = scratch.shadestep({"source", "--json"}, kRaycaster).json();
   int loop = 0;
-  for (const Json& site : scratch.shadestep({"source", "--json"}, kRaycaster).json().at("sites")) {
+  for (const Json& site : source.at("sites")) {
     if (site.at("kind") == "for") loop = site.at("line");
     if (loop > 0 && site.at("line") > loop) return site.at("line").dump();
   }
