@@ -255,14 +255,13 @@ Result<RecordingShader> instrumentRecording(const Shader& shader, const Target& 
   attachments.add("invocation", invocation);
   attachments.declare();
   draft.append(draft.adapt(helpers::k_recording_functions));
-  // 2. The frame: a thread starts and ends in the new main; one that is not recorded runs the plain copy.
-  // (The
-  //    functions behind subroutine uniforms cannot be told apart that way.)
+  // 2. The frame: a thread starts and ends in the new main; where nothing is recorded it runs the plain copy.
+  //    (The functions behind subroutine uniforms cannot be told apart that way.)
   const std::string count = draft.name("invocation");
-  std::string other;
+  std::string before = "  " + draft.name("begin();\n");
   if (!shader.traits.uses_subroutines)
-    other = "  if (!" + draft.name("on") + ") " + copyPlain(draft) + "(); else\n";
-  wrapMain(draft, "  " + draft.name("begin();\n") + other,
+    before = "  if (!" + draft.name("begin()") + ") " + copyPlain(draft) + "(); else\n";
+  wrapMain(draft, before,
            "  " + draft.name("end(1);\n") + "  " + attachments.assign(kLaunched | kReached, {count}) + ";\n" +
                attachments.write());
   // 3. Functions before statements: their records enclose those of their statements.

@@ -38,7 +38,7 @@ TEST(PlainCopy, CallsOnlyCopies) {
 }
 
 TEST(PlainCopy, RunsWhereNothingIsRecorded) {
-  expectPart(recorded(kShader), "sd_begin();if(!sd_on)sd_p2();elsesd_main();");
+  expectPart(recorded(kShader), "if(!sd_begin())sd_p2();elsesd_main();");
 }
 
 TEST(PlainCopy, HasTheOutputsThatCapturesLeave) {
