@@ -1,9 +1,10 @@
 // What a user names at a statement: a variable with an access path.
+#include "glsl-frontend/watch.h"
+
 #include <algorithm>
 #include <string>
 
 #include "glsl-frontend/lexer.h"
-#include "glsl-frontend/shader.h"
 
 namespace shadestep::frontend {
 
@@ -13,9 +14,9 @@ struct WatchError {
   std::string message;
 };
 
-std::string scopeNames(const Shader& shader, const Statement& statement) {
+std::string scopeNames(const Shader& shader, const std::vector<VariableId>& scope) {
   std::string names;
-  for (VariableId id : statement.scope) {
+  for (VariableId id : scope) {
     names += (names.empty() ? "" : ", ") + shader.variables[static_cast<std::size_t>(id)].name;
   }
   return names;
@@ -71,7 +72,8 @@ Type elementOf(const Type& base, const std::string& index) {
   return result;
 }
 
-Watch resolve(const Shader& shader, const Statement& statement, std::string_view text) {
+Watch resolve(const Shader& shader, const Statement& statement, const std::vector<VariableId>& scope,
+              std::string_view text) {
   const std::vector<LexedLine> lines = lex(text);
   if (lines.size() != 1 || lines.front().tokens.empty() ||
       lines.front().tokens.front().token.kind != TokenKind::identifier) {
@@ -82,11 +84,11 @@ Watch resolve(const Shader& shader, const Statement& statement, std::string_view
 
   Watch watch;
   const std::string& name = tokens.front().text;
-  for (VariableId id : statement.scope) {
+  for (VariableId id : scope) {
     if (shader.variables[static_cast<std::size_t>(id)].name == name) watch.variable = id;
   }
   if (watch.variable == kNone) {
-    const std::string names = scopeNames(shader, statement);
+    const std::string names = scopeNames(shader, scope);
     throw WatchError{"no variable '" + name + "' in scope at line " + std::to_string(statement.place.line) +
                      (names.empty() ? "; there are none" : "; there are: " + names)};
   }
@@ -112,20 +114,37 @@ Watch resolve(const Shader& shader, const Statement& statement, std::string_view
   return watch;
 }
 
-}  // namespace
-
-WatchResult resolveWatch(const Shader& shader, StatementId id, std::string_view text) {
+WatchResult resolveIn(const Shader& shader, StatementId id, bool after, std::string_view text) {
   WatchResult result;
   if (id < 0 || id >= static_cast<StatementId>(shader.statements.size())) {
     result.error = "there is no such statement";
     return result;
   }
+  const Statement& statement = shader.statements[static_cast<std::size_t>(id)];
+  std::vector<VariableId> scope = statement.scope;
+  const auto add = [&](const Statement& one) {
+    for (const Declarator& declarator : one.declarators) {
+      if (declarator.variable != kNone) scope.push_back(declarator.variable);
+    }
+  };
+  if (after) add(statement);
+  if (after && statement.init != kNone) add(shader.statements[static_cast<std::size_t>(statement.init)]);
   try {
-    result.watch = resolve(shader, shader.statements[static_cast<std::size_t>(id)], text);
+    result.watch = resolve(shader, statement, scope, text);
   } catch (const WatchError& error) {
     result.error = error.message;
   }
   return result;
+}
+
+}  // namespace
+
+WatchResult resolveWatch(const Shader& shader, StatementId id, std::string_view text) {
+  return resolveIn(shader, id, false, text);
+}
+
+WatchResult resolveWatchAfter(const Shader& shader, StatementId id, std::string_view text) {
+  return resolveIn(shader, id, true, text);
 }
 
 }  // namespace shadestep::frontend

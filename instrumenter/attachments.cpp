@@ -20,7 +20,8 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
     failure_ = "The shader has no main; it is a part of a program whose main is in another shader.";
   } else if (draft.es() && shader.version < 300 && !target.es_draw_buffers) {
     failure_ =
-        "A GLSL ES 1.00 shader has a single colour output on this driver, which lacks GL_EXT_draw_buffers, so "
+        "A GLSL ES 1.00 shader has a single colour output on this driver, which lacks GL_EXT_draw_buffers, "
+        "so "
         "nothing can be captured beside it.";
   } else if (capacity_ <= 0) {
     failure_ = "The program uses all " + std::to_string(target.max_draw_buffers) +
@@ -97,9 +98,15 @@ std::string Attachments::write() const {
   for (int i = 0; i < layout_.attachments(); ++i) {
     const std::string output = frag_data_ ? "gl_FragData[" + std::to_string(layout_.first_frag_data + i) + "]"
                                           : layout_.outputs[static_cast<std::size_t>(i)];
-    text += "  " + output + " = " + buffer(i) + ";\n";
+    text += "  " + output + " = " + (frag_data_ ? unrounded(buffer(i)) : buffer(i)) + ";\n";
   }
   return frag_data_ ? text + broadcastFragColor(draft_.shader(), used_draw_buffers_) : text;
+}
+
+// gl_FragData is mediump in ES: Mesa rounds what is constant when it is assigned, and keeps all else as it
+// is.
+std::string Attachments::unrounded(const std::string& words) const {
+  return draft_.es() ? "gl_FragCoord.x < -1.0 ? vec4(gl_FragCoord.x) : " + words : words;
 }
 
 std::string Attachments::assignWords(const std::vector<std::string>& words, int attachments) const {

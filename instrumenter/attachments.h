@@ -43,6 +43,7 @@ class Attachments {
 
  private:
   std::string assignWords(const std::vector<std::string>& words, int attachments) const;
+  std::string unrounded(const std::string& words) const;
   std::string markWord(std::uint32_t mark) const;
   std::string buffer(int index) const { return draft_.name("words" + std::to_string(index)); }
 

@@ -57,7 +57,9 @@ class Recorder {
   std::vector<Item> changed(const std::vector<VariableId>& changes, const std::vector<VariableId>& scope,
                             const std::vector<frontend::Declarator>& declared) const;
   std::vector<Item> changedByLoopHead(const Statement& loop) const;
+  std::vector<Item> changedInFlight(FunctionId callee) const;
   std::vector<Item> parameters(const Function& function, bool Variable::*direction) const;
+  bool names(const Statement& statement, VariableId id) const;
   Item item(VariableId id) const;
 
   Draft& draft_;
@@ -71,10 +73,11 @@ void Recorder::recordFunctions() {
     const Function& function = shader_.functions[i];
     if (function.body == frontend::kNone) continue;
     const auto id = static_cast<FunctionId>(i);
-    putAtBodyStart(
-        draft_.edits, shader_, function.body,
-        record(Event::function_enter, id, function.body, parameters(function, &Variable::parameter_in)) +
-            ";");
+    std::vector<Item> entering = parameters(function, &Variable::parameter_in);
+    const std::vector<Item> more = changedInFlight(id);
+    entering.insert(entering.end(), more.begin(), more.end());
+    putAtBodyStart(draft_.edits, shader_, function.body,
+                   record(Event::function_enter, id, function.body, entering) + ";");
     const std::vector<StatementId>& children = statementAt(shader_, function.body).children;
     if (!children.empty() && isJump(statementAt(shader_, children.back()).kind)) continue;
     putAtBodyEnd(
@@ -208,6 +211,49 @@ std::vector<Item> Recorder::changedByLoopHead(const Statement& loop) const {
   return changed(changes, loop.scope, declared);
 }
 
+// What a statement has changed before it calls the function, `(g = 1, f())`, has no record yet when the
+// function runs.
+std::vector<Item> Recorder::changedInFlight(FunctionId callee) const {
+  std::vector<VariableId> changes;
+  for (const frontend::Call& call : shader_.calls) {
+    if (call.callee != callee || call.statement == frontend::kNone) continue;
+    const Statement& at = statementAt(shader_, call.statement);
+    std::vector<VariableId> candidates = at.changes;
+    candidates.insert(candidates.end(), at.init_changes.begin(), at.init_changes.end());
+    candidates.insert(candidates.end(), at.increment_changes.begin(), at.increment_changes.end());
+    for (const VariableId id : candidates)
+      if (at.calls.size() > 1 || names(at, id)) changes.push_back(id);
+  }
+  const Function& function = functionAt(shader_, callee);
+  std::vector<VariableId> scope = statementAt(shader_, function.body).scope;
+  const auto isOwn = [&](VariableId id) {
+    return std::find(function.parameters.begin(), function.parameters.end(), id) != function.parameters.end();
+  };
+  scope.erase(std::remove_if(scope.begin(), scope.end(), isOwn), scope.end());
+  std::vector<Item> items = changed(changes, scope, {});
+  const auto isHidden = [&](const Item& item) {
+    return std::any_of(function.parameters.begin(), function.parameters.end(), [&](VariableId id) {
+      return id != frontend::kNone && shader_.variables[static_cast<std::size_t>(id)].name == item.name;
+    });
+  };
+  items.erase(std::remove_if(items.begin(), items.end(), isHidden), items.end());
+  return items;
+}
+
+// Do the statement's own expressions contain the variable's name?
+bool Recorder::names(const Statement& statement, VariableId id) const {
+  const std::string& name = shader_.variables[static_cast<std::size_t>(id)].name;
+  std::vector<frontend::TokenRange> own = {statement.expression, statement.increment};
+  if (statement.kind == StatementKind::declaration || statement.kind == StatementKind::opaque)
+    own.push_back(statement.tokens);
+  if (statement.init != frontend::kNone) own.push_back(statementAt(shader_, statement.init).tokens);
+  return std::any_of(own.begin(), own.end(), [&](const frontend::TokenRange& range) {
+    for (frontend::TokenIndex i = range.first; i <= range.last; ++i)
+      if (shader_.tokens[static_cast<std::size_t>(i)].text == name) return true;
+    return false;
+  });
+}
+
 std::vector<Item> Recorder::parameters(const Function& function, bool Variable::*direction) const {
   std::vector<Item> items;
   for (const VariableId id : function.parameters)
@@ -221,8 +267,20 @@ Item Recorder::item(VariableId id) const {
   return {variable.name, withoutFragColor(variable.name), variable.type};
 }
 
+// The extensions that a recording needs below these versions make keywords of what may be a name there.
+std::string newKeyword(const Shader& shader) {
+  if (isEs(shader)) return "";
+  for (const std::string& name : frontend::identifiers(shader)) {
+    if ((name == "buffer" && shader.version < 430) || (name == "layout" && shader.version < 140)) return name;
+  }
+  return "";
+}
+
 std::string impossible(const Shader& shader, const Target& target) {
   const bool es = isEs(shader);
+  if (const std::string name = newKeyword(shader); !name.empty())
+    return "Recording needs extensions that make '" + name +
+           "' a keyword, and the shader uses it as a name; look at single steps instead.";
   if (es && shader.version < 310)
     return "Recording needs storage buffers, which GLSL ES has from 3.10 on; look at single steps instead.";
   if (!target.storage_buffers)
@@ -233,6 +291,26 @@ std::string impossible(const Shader& shader, const Target& target) {
            "look at "
            "single steps instead.";
   return "";
+}
+
+// In ES the text alone gives a block its binding, and four are there at least: the last that the text does
+// not name.
+std::string recordingDeclarations(const Draft& draft) {
+  std::string text = draft.adapt(helpers::k_recording_declarations);
+  if (!draft.es()) return text;
+  const std::vector<frontend::Token>& tokens = draft.shader().tokens;
+  const auto isTaken = [&](int binding) {
+    for (std::size_t i = 2; i < tokens.size(); ++i) {
+      if (tokens[i].text == std::to_string(binding) && tokens[i - 1].text == "=" &&
+          tokens[i - 2].text == "binding")
+        return true;
+    }
+    return false;
+  };
+  int binding = 3;
+  while (binding > 0 && isTaken(binding)) --binding;
+  const std::string_view before = "layout(std430";
+  return text.insert(text.find(before) + before.size(), ", binding = " + std::to_string(binding));
 }
 
 }  // namespace
@@ -249,7 +327,7 @@ Result<RecordingShader> instrumentRecording(const Shader& shader, const Target& 
   if (!draft.es() && shader.version < 140)
     draft.require("GL_ARB_uniform_buffer_object");  // makes `layout` a keyword
   prepareWords(draft);
-  draft.declare(draft.adapt(helpers::k_recording_declarations));
+  draft.declare(recordingDeclarations(draft));
   Type invocation;
   invocation.basic = frontend::Basic::uint_;
   attachments.add("invocation", invocation);

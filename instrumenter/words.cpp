@@ -15,6 +15,7 @@ namespace {
 std::vector<std::string> integerWords(const Draft& draft, const std::string& expression, const Type& type,
                                       const std::string& integer) {
   const Basic other = integer == "uint" ? Basic::int_ : Basic::uint_;
+  const bool has_uint = draft.shader().version >= 130;
   const std::string from_float = integer == "uint" ? "floatBitsToUint(" : "floatBitsToInt(";
   std::vector<std::string> words;
   for (const Component& component : frontend::components(type)) {
@@ -37,8 +38,8 @@ std::vector<std::string> integerWords(const Draft& draft, const std::string& exp
         both("unpackUint2x32");
         break;
       default:
-        words.push_back((draft.es() && component.basic == other ? draft.name(integer) : integer) + "(" +
-                        value + ")");
+        words.push_back((draft.es() && has_uint && component.basic == other ? draft.name(integer) : integer) +
+                        "(" + value + ")");
     }
   }
   return words;

@@ -55,13 +55,17 @@ class ProbedRun {
   std::vector<NamedValue> look(Probe probe) {
     std::vector<NamedValue> values;
     std::vector<frontend::Watch> rest = probe.watches;
-    do {
+    bool looked = false;
+    while (!looked || !rest.empty()) {
       probe.watches = rest;
       auto instrumented = instrumenter::instrumentSingle(shader_, probe, session_.target());
       if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) {
-        throw Error(Outcome::cannot_debug, failure->reason);
+        if (rest.empty()) throw Error(Outcome::cannot_debug, failure->reason);
+        rest.erase(rest.begin());  // too wide for the draw buffers: left out, as recordings do
+        continue;
       }
       const Captured captured = session_.capture(std::get<instrumenter::AttachmentShader>(instrumented));
+      looked = true;
       run_.check.merge(captured.execution.check);
       const std::uint32_t* words = captured.threads.at(x_, y_);
       const std::uint32_t mark = instrumenter::decodeMark(captured.layout, words);
@@ -80,7 +84,7 @@ class ProbedRun {
       if (taken == 0) break;
       rest.erase(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(std::min(taken, rest.size())));
       probe.outcome = false;
-    } while (!rest.empty());
+    }
     return values;
   }
 
@@ -174,7 +178,7 @@ class ProbedRun {
     const Position inside = navigation_.into(position);
     if (inside.call_path.size() > position.call_path.size()) {
       if (position.calls_done == 0) push(Step::Kind::call, position);
-      return enter(inside);
+      return enter(position, inside);
     }
     const Statement& statement = at(position);
     const bool is_init =
@@ -195,14 +199,19 @@ class ProbedRun {
     return navigation_.over(position);
   }
 
-  Position enter(const Position& inside) {
+  // Into a call; past it if the thread does not make it, behind a && or a ?: that goes the other way.
+  Position enter(const Position& from, const Position& inside) {
     const frontend::Call& call = shader_.calls[static_cast<std::size_t>(inside.call_path.back())];
     std::vector<VariableId> parameters;
     for (const VariableId id : shader_.functions[static_cast<std::size_t>(call.callee)].parameters) {
       if (id != kNone && variable(id).parameter_in) parameters.push_back(id);
     }
     const std::vector<NamedValue> values = look(probeAt(inside, Probe::When::before, parameters));
-    if (!reached_) return lost();
+    if (!reached_) {
+      Position past = from;
+      ++past.calls_done;
+      return past;
+    }
     Step& step = push(Step::Kind::enter, inside);
     const frontend::Function& callee = shader_.functions[static_cast<std::size_t>(call.callee)];
     const frontend::Place header = shader_.tokens[static_cast<std::size_t>(callee.name_token)].place;

@@ -141,10 +141,11 @@ class Walk {
   }
 
   void remember(const RecordLayout& layout, VariableId id, const Value& value) {
-    const bool declared_empty = declaresWithoutValue(layout, id);
+    const bool declared_empty = declaresWithoutValue(layout, id) || isPartOfOutput(layout, id);
     const auto found = known_.find(id);
     KnownValue next{value, std::vector<bool>(value.words.size(), !declared_empty)};
-    if (!declared_empty && found != known_.end() && found->second.defined.size() == value.words.size()) {
+    if (!declaresWithoutValue(layout, id) && found != known_.end() &&
+        found->second.defined.size() == value.words.size()) {
       const KnownValue& last = found->second;
       for (std::size_t i = 0; i < value.words.size(); ++i) {
         next.defined[i] = last.defined[i] || last.value.words[i] != value.words[i];
@@ -159,6 +160,19 @@ class Walk {
       if (declarator.variable == id) return declarator.initializer.empty();
     }
     return false;
+  }
+
+  // Outputs begin undefined; a statement that does not begin with `output =` may write a part of one.
+  bool isPartOfOutput(const RecordLayout& layout, VariableId id) const {
+    const frontend::Variable& variable = shader_.variables[static_cast<std::size_t>(id)];
+    const bool is_output =
+        variable.storage == frontend::Storage::out || variable.storage == frontend::Storage::builtin;
+    if (!is_output || layout.statement == kNone) return false;
+    const frontend::TokenIndex first = statement(layout.statement).tokens.first;
+    const auto text = [&](frontend::TokenIndex i) {
+      return shader_.tokens[static_cast<std::size_t>(i)].text;
+    };
+    return text(first) != variable.name || text(first + 1) != "=";
   }
 
   const Shader& shader_;
@@ -178,7 +192,7 @@ VariableId recordedVariable(const Shader& shader, const RecordLayout& layout, co
   if (layout.event == Event::function_enter || layout.event == Event::function_leave) {
     const auto& parameters = shader.functions[static_cast<std::size_t>(layout.function)].parameters;
     const auto found = std::find_if(parameters.begin(), parameters.end(), named);
-    return found != parameters.end() ? *found : kNone;
+    if (found != parameters.end()) return *found;
   }
   if (layout.statement == kNone) return kNone;
   const frontend::Statement& at = shader.statements[static_cast<std::size_t>(layout.statement)];

@@ -89,7 +89,7 @@ ThreadValues Stepper::look(const std::vector<std::string>& watches) {
 const ThreadValues& Stepper::here(const std::vector<std::string>& watches) {
   if (ended()) throw Error(Outcome::nothing_matches, "the threads have ended; start again");
   instrumenter::Probe probe = probeAt(position_);
-  probe.watches = watchesAt(shader_, probe.statement, watches);
+  probe.watches = watchesAt(shader_, probe, watches);
   const auto known = [&](const std::string& name) { return valueOf(*here_, name) != nullptr; };
   if (here_ && std::all_of(watches.begin(), watches.end(), known)) return *here_;
 

@@ -131,7 +131,11 @@ class Follower {
   void addChanges(Step& step, const RecordLayout& layout, const Record& record, std::size_t first, bool all) {
     for (std::size_t i = first; i < layout.fields.size(); ++i) {
       const bool differs = changes(layout, layout.fields[i].name, record.values[i]);
-      if (differs || all) step.changed.push_back({layout.fields[i].name, record.values[i]});
+      const VariableId variable = variableOf(layout, layout.fields[i].name);
+      const bool is_global =
+          variable != kNone &&
+          shader_.variables[static_cast<std::size_t>(variable)].storage == frontend::Storage::global;
+      if (differs || (all && !is_global)) step.changed.push_back({layout.fields[i].name, record.values[i]});
     }
   }
 

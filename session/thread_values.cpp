@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "glsl-frontend/watch.h"
 #include "session/values.h"
 
 namespace shadestep::session {
@@ -103,11 +104,13 @@ ThreadValues valuesAt(Session& session, const PlaceSelection& place,
   return valuesAt(session, probeAt(session.shader(Stage::fragment), place), watches);
 }
 
-std::vector<frontend::Watch> watchesAt(const Shader& shader, StatementId statement,
+std::vector<frontend::Watch> watchesAt(const Shader& shader, const Probe& probe,
                                        const std::vector<std::string>& names) {
   std::vector<frontend::Watch> watches;
   for (const std::string& text : names) {
-    frontend::WatchResult resolved = frontend::resolveWatch(shader, statement, text);
+    frontend::WatchResult resolved = probe.when == Probe::When::after
+                                         ? frontend::resolveWatchAfter(shader, probe.statement, text)
+                                         : frontend::resolveWatch(shader, probe.statement, text);
     if (!resolved.watch) throw Error(Outcome::nothing_matches, resolved.error);
     if (frontend::wordCount(resolved.watch->type) == 0) {
       throw Error(Outcome::nothing_matches, "'" + text + "' is a " + glslName(resolved.watch->type) +
@@ -160,7 +163,7 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
 }
 
 ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {
-  probe.watches = watchesAt(session.shader(Stage::fragment), probe.statement, watches);
+  probe.watches = watchesAt(session.shader(Stage::fragment), probe, watches);
   return valuesAt(session, std::move(probe));
 }
 

@@ -50,8 +50,8 @@ ThreadValues valuesAt(Session&, const PlaceSelection&, const std::vector<std::st
 ThreadValues valuesAt(Session&, instrumenter::Probe, const std::vector<std::string>& watches);
 ThreadValues valuesAt(Session&, instrumenter::Probe);
 
-// What the names mean at a statement. Throws nothing_matches for what is not in scope or holds no value.
-std::vector<frontend::Watch> watchesAt(const frontend::Shader&, frontend::StatementId,
+// What the names mean where the probe is. Throws nothing_matches for what is not in scope or holds no value.
+std::vector<frontend::Watch> watchesAt(const frontend::Shader&, const instrumenter::Probe&,
                                        const std::vector<std::string>& names);
 
 // Takes in one pass over a place: its marks, which must be those of the passes before, its fields and its

@@ -179,7 +179,7 @@ ThreadValues look(session::Session& session, const session::PlaceSelection& plac
   if (plan == session::Plan::automatic) plan = session::Plan::single;
   const frontend::Shader& shader = session.shader(session::Stage::fragment);
   instrumenter::Probe probe = session::probeAt(shader, place);
-  probe.watches = session::watchesAt(shader, probe.statement, splitList(options.print));
+  probe.watches = session::watchesAt(shader, probe, splitList(options.print));
   return session::makePlan(session, plan)->valuesAt(probe);
 }
 

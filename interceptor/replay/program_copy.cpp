@@ -157,15 +157,16 @@ Refusal placeStorageBlock(const guard::ContextFacts& facts, const std::string& b
                               &binding);
     return binding;
   };
-  if (!dispatch::available("glShaderStorageBlockBinding") || facts.es) {
-    copy.storage_binding = bindingOf(index);
-    return {};
-  }
   std::set<int> taken;
   GLint blocks = 0;
   gl().GetProgramInterfaceiv(copy.program, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &blocks);
   for (GLuint i = 0; i < static_cast<GLuint>(blocks); ++i) {
     if (i != index) taken.insert(bindingOf(i));
+  }
+  if (!dispatch::available("glShaderStorageBlockBinding") || facts.es) {  // the text has chosen it
+    copy.storage_binding = bindingOf(index);
+    if (taken.count(copy.storage_binding) == 0) return {};
+    return guard::limit("the program's storage blocks leave no binding for one more in OpenGL ES");
   }
   int binding = facts.max_storage_bindings - 1;
   while (binding >= 0 && taken.count(binding) != 0) --binding;

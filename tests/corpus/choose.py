@@ -4,7 +4,7 @@
     choose.py [--count 300] [--seed 1] > tests/corpus/list-300.txt
 
 From every directory glsl-* (desktop and ES) of tests/spec and generated_tests/spec come tests that have a fragment
-shader in the file and draw. Small directories give up to 10 tests; what is left is shared out in proportion to the
+shader in the file and draw. Small directories give up to 20 tests; what is left is shared out in proportion to the
 square root of the directories' sizes, so that the 9,000 generated tests of one feature do not crowd out the rest.
 Inside a directory the tests are drawn in turn from its folders, in an order shuffled by the seed.
 """
@@ -21,7 +21,7 @@ from pathlib import Path
 
 import piglit
 
-AT_LEAST = 10
+AT_LEAST = 20
 
 
 def candidates(root: Path) -> dict[str, dict[str, list[str]]]:

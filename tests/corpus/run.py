@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs `shadestep verify` on piglit's shader tests and compares each test's own verdict with and without it.
 
-    scripts/corpus [TEST...] [--list FILE] [--sample N] [--jobs 2] [--timeout S] [--budget S] [--out DIR]
+    scripts/corpus [TEST...] [--list FILE] [--sample N] [--minutes M] [--jobs 2] [--timeout S] [--budget S] [--out DIR]
 
 TEST: paths below piglit's directory (tests/spec/..., generated_tests/spec/...), or patterns of such paths.
 Default: the fixed list tests/corpus/list-300.txt. Writes results.jsonl (a line a test, with every failure) and
@@ -139,6 +139,8 @@ def select(root: Path, options: argparse.Namespace) -> list[str]:
         tests = [line for line in options.list.read_text().split("\n") if line and not line.startswith("#")]
     if options.sample and options.sample < len(tests):
         tests = sorted(random.Random(options.seed).sample(tests, options.sample))
+    if options.minutes:
+        random.Random(options.seed).shuffle(tests)
     return tests
 
 
@@ -148,6 +150,7 @@ def main() -> int:
     parser.add_argument("--list", type=Path, default=FOLDER / "list-300.txt")
     parser.add_argument("--sample", type=int, help="only N of them, chosen by --seed")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--minutes", type=float, help="in an order chosen by --seed, and begin no test after this time")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--timeout", type=float, default=60, help="seconds for one run of one test")
     parser.add_argument("--budget", type=float, default=10, help="seconds for one draw")
@@ -174,7 +177,10 @@ def main() -> int:
     bad = 0
     with open(options.out / "results.jsonl", "w") as results:
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            for entry in pool.map(lambda test: check(test, root, options), tests):
+            def begin(test: str) -> dict | None:
+                late = options.minutes and time.monotonic() - start > 60 * options.minutes
+                return None if late else check(test, root, options)
+            for entry in filter(None, pool.map(begin, tests)):
                 entry["undefined"] = excuse(entry["test"], patterns)
                 entry["problems"] = problems(entry)
                 results.write(json.dumps(entry) + "\n")

@@ -252,7 +252,7 @@ TEST(Attachments, OfAnOldEsShaderNeedSeveralDrawBuffersAndFullPrecision) {
   const std::string text = single(shader, at(shader, 4), offered);
   expectPart(text, "#extension GL_EXT_draw_buffers : require");
   expectPart(text, "highp vec4 sd_words0;");
-  expectPart(text, "gl_FragData[1] = sd_words0; }");
+  expectPart(text, "gl_FragData[1] = gl_FragCoord.x < -1.0 ? vec4(gl_FragCoord.x) : sd_words0; }");
 }
 
 TEST(Attachments, StandBesideOutputsThatAnExtensionBrings) {

@@ -1,0 +1,637 @@
+"""Random valid fragment shaders, the same for the same seed."""
+
+from __future__ import annotations
+
+import random
+
+from dialect import DIALECTS, Dialect
+from expressions import MANY, REST, Context, Expressions, lit, var
+from tree import BOOL, DOUBLE, E, FLOAT, INT, UINT, VOID, Function, Program, S, Struct, Type, Variable, vec
+
+NAMES = ["a", "b", "c", "d", "e", "i", "j", "k", "n", "v", "w", "sum", "value", "state", "color", "x1", "tmp", "result",
+         "sd_x", "sd_end", "sd_words", "sd_at", "sd2_words", "sd_record", "record", "probe", "shadestep", "main_", "l",
+         "mark", "reached", "words", "index_", "S1", "hit", "pixel", "sd_main", "_", "_0", "aVeryLongNameForAVariable"]
+OLD_NAMES = ["sample", "patch", "buffer", "shared", "texture", "smooth", "layout", "flat", "uint"]
+FUNCTION_NAMES = ["f", "g", "h", "shade", "step1", "pick", "sd_f", "helper", "next", "apply"]
+WIDTH, HEIGHT = 6, 5
+
+
+class Generator(Expressions):
+    def __init__(self, seed: str, dialect: Dialect, size: int = 24):
+        self.random = random.Random(seed)
+        self.dialect = dialect
+        self.budget = size
+        self.program = Program(dialect.version, dialect.es, WIDTH, HEIGHT)
+        self.functions: list[Function] = []
+        self.structs: list[Struct] = []
+        self.scopes: list[dict] = [{}]
+        self.lim = self.low = None
+        self.coord = Variable("gl_FragCoord", vec("float", 4), "builtin", (0.5, 31.5), False)
+        self.current: Function | None = None
+        self.loops = 0  # around the current statement, in its function
+        self.switches = 0  # between it and the innermost loop
+        self.outputs = self.program.outputs
+        self.pix: Variable | None = None
+        self.atomic = self.random.choice(["atomicAdd", "atomicMax", "atomicXor"])  # one, so that its order is free
+
+    # ---- names --------------------------------------------------------------------------------------------------
+
+    def visible(self) -> dict:
+        seen: dict = {}
+        for scope in self.scopes:
+            seen |= scope
+        return seen
+
+    def name(self) -> str:
+        """Not yet in the innermost scope; now and then one that hides another."""
+        here = self.scopes[-1]
+        outer = [n for n in self.visible() if n not in here and not n.startswith("gl_") and n not in ("lim", "low", "pix", "used")
+                 and len(self.scopes) > 1 and (len(self.scopes) > 2 or not n.startswith("out_"))]
+        if outer and self.random.random() < 0.25:
+            return self.random.choice(outer)
+        pool = NAMES + (OLD_NAMES if not self.dialect.es and self.dialect.version < 130 else [])
+        taken = self.visible()
+        free = [n for n in pool if n not in taken]
+        if free:
+            return self.random.choice(free)
+        return f"v{self.random.randrange(10 ** 6)}"
+
+    def declare(self, variable: Variable) -> Variable:
+        if variable.name:
+            self.scopes[-1][variable.name] = variable
+        return variable
+
+    # ---- types --------------------------------------------------------------------------------------------------
+
+    def type(self, deep: int = 2) -> Type:
+        r = self.random.random()
+        bases = ["int", "int", "int", "float", "float", "bool"] + (["uint", "uint"] if self.dialect.integers else []) + (
+            ["double"] if self.dialect.doubles else [])
+        base = self.random.choice(bases)
+        if r < 0.55:
+            return Type(base)
+        if r < 0.75:
+            return Type(base, self.random.randint(2, 4))
+        if r < 0.83 and base in ("float", "double"):
+            cols = self.random.randint(2, 4)
+            return Type(base, self.random.randint(2, 4) if self.dialect.array_values else cols, cols)
+        if r < 0.90 and self.structs:
+            return Type("struct", struct=self.random.choice(self.structs))
+        if deep > 0:
+            element = self.type(deep - 1)
+            if element.dims and not self.dialect.arrays_of_arrays:
+                element = element.element()
+            if element.words() <= 12:
+                return Type(element.base, element.rows, element.cols, (self.random.randint(1, 4),) + element.dims,
+                            element.struct)
+        return Type(base)
+
+    def range_for(self, type_: Type):
+        if type_.base in ("float", "double"):
+            return REST
+        if type_.base != "int":
+            return None
+        if not self.dialect.integers:
+            return self.random.choice([MANY, MANY, (0, 3)]) if type_.is_scalar() else MANY
+        return self.random.choice([None, None, None, (0, 3), (0, 7)]) if type_.is_scalar() else None
+
+    def is_value(self, type_: Type) -> bool:
+        """Can it be initialized, assigned and returned?"""
+        return not has_array(type_) or self.dialect.array_values
+
+    # ---- the whole ----------------------------------------------------------------------------------------------
+
+    def generate(self) -> Program:
+        r = self.random
+        for i in range(r.choice([0, 1, 1, 2])):
+            members = []
+            for n in range(r.randint(1, 3)):
+                t = self.type(1)
+                members.append((r.choice("pqrstuvw") + str(n), t))
+            struct = Struct(r.choice(["S", "Record", "sd_S", "Pair"]) + str(i), tuple(members))
+            self.structs.append(struct)
+        self.program.structs = list(self.structs)
+        self.inputs()
+        if not self.dialect.integers:
+            self.limiters()
+        self.used()
+        for _ in range(r.randint(0, 3)):
+            self.global_variable()
+        for _ in range(r.randint(1, 3)):
+            self.function()
+        if r.random() < 0.5:
+            self.global_variable()
+        self.main()
+        if r.random() < 0.4:
+            self.program.layout_seed = r.randint(1, 10 ** 6)
+        return self.program
+
+    def add_global(self, v: Variable, qualifier: str = "") -> Variable:
+        v.qualifier = qualifier
+        self.program.declarations.append(v)
+        return self.declare(v)
+
+    def inputs(self) -> None:
+        r, d = self.random, self.dialect
+        for i in range(r.randint(1, 3)):
+            base = r.choice(["int", "float"] + (["uint"] if d.integers else []) + (["bool"] if d.integers else []))
+            t = Type(base, r.choice([1, 1, 2, 3, 4]))
+            v = Variable(f"u_{i}", t, "uniform", (0, 7) if base in ("int", "uint") else (0.0, 8.0), False)
+            v.value = [self.leaf_value(base) for _ in range(t.words())]
+            self.add_global(v, "uniform")
+        if d.blocks and r.random() < 0.5:
+            v = Variable("blocked", Type("int", 4, 1, (2,)), "uniform", (0, 7), False)
+            v.value = [self.leaf_value("int") for _ in range(8)]
+            self.add_global(v, "block")
+        if d.memory and r.random() < 0.7:
+            cells = Variable("cells", Type("int", 1, 1, (WIDTH * HEIGHT,)), "buffer", None)
+            total = Variable("total", INT, "buffer", None)
+            self.add_global(total, "storage")
+            self.add_global(cells, "storage")
+            if r.random() < 0.6:
+                self.add_global(Variable("picture", INT, "image", None), "image")
+            if r.random() < 0.6:
+                self.add_global(Variable("counted", UINT, "counter", None), "counter")
+        if d.integers:
+            for i in range(r.choice([1, 1, 2, 3])):
+                base = r.choice(["float", "float", "int", "uint"])
+                v = Variable(f"out_{i}", Type(base, 4), "out", (64.0, 192.0) if base == "float" else None)
+                self.outputs.append(self.add_global(v, "out"))
+        else:
+            v = Variable("gl_FragColor", vec("float", 4), "builtin-out", (64.0, 192.0))
+            if not d.es and r.random() < 0.5:
+                v = Variable("gl_FragData", Type("float", 4, 1, (2,)), "builtin-out", (64.0, 192.0))
+                self.outputs.append(v)  # longer than these two: not for the shader's own expressions
+            else:
+                self.outputs.append(self.declare(v))
+        if r.random() < 0.25 and not (d.es and d.version < 300):
+            depth = Variable("gl_FragDepth", FLOAT, "builtin-out", (0.25, 0.75))
+            self.outputs.append(depth)
+
+    def leaf_value(self, base: str):
+        if base == "bool":
+            return self.random.random() < 0.5
+        value = self.random.randint(0, 7)
+        return float(value) + self.random.choice([0.0, 0.25, 0.5]) if base == "float" else value
+
+    def limiters(self) -> None:
+        """Functions that keep integers small where GLSL does not define their wrapping."""
+        v = Variable("v", INT, "parameter", None)
+        thousand = E("bin", INT, [E("bin", INT, [var(v), lit(INT, 1000)], "/"), lit(INT, 1000)], "*")
+        self.lim = Function("lim", INT, [v], [S("return", [E("bin", INT, [var(v), thousand], "-")])], MANY)
+        v, top = Variable("v", INT, "parameter", None), Variable("top", INT, "parameter", None)
+        self.low = Function("low", INT, [v, top], [
+            S("if", [E("bin", BOOL, [var(v), lit(INT, 0)], "<")], [S("return", [lit(INT, 0)])]),
+            S("return", [E("cond", INT, [E("bin", BOOL, [var(v), var(top)], ">"), var(top), var(v)])])], (0, 3))
+        for f in (self.lim, self.low):
+            self.functions.append(f)
+            self.program.declarations.append(f)
+            self.scopes[0][f.name] = f
+
+    def global_variable(self) -> None:
+        t = self.type()
+        if self.program.es and not self.is_value(t):
+            return
+        v = Variable(self.name(), t, "global", self.range_for(t))
+        if not self.is_value(t):
+            return
+        constant = not self.dialect.free_initializers or self.random.random() < 0.5
+        ctx = Context(2, constant=constant, pure=self.random.random() < 0.9)
+        v.initializer = self.simple(t, v.range) if constant else self.settled(t, ctx, v.range)
+        if t.dims and not self.keeps(v.initializer, v.range) and t.base not in ("bool", "struct"):
+            v.initializer = self.simple(t, v.range)
+        if self.random.random() < 0.2 and constant:
+            v.storage, v.writable = "constant", False
+        self.add_global(v, "const" if v.storage == "constant" else "")
+
+    # ---- functions ----------------------------------------------------------------------------------------------
+
+    def function(self) -> None:
+        r = self.random
+        t = r.choice([VOID, INT, INT, BOOL, FLOAT]) if r.random() < 0.7 else self.type(1)
+        if t.dims and not self.dialect.array_values or t != VOID and not self.is_value(t):
+            t = INT
+        params = []
+        self.scopes.append({})
+        for _ in range(r.choice([0, 1, 1, 2, 3])):
+            p = self.type(1)
+            if not self.is_value(p):
+                p = FLOAT
+            v = Variable(self.name(), p, "parameter", self.range_for(p))
+            v.qualifier = r.choice(["", "", "in", "const in", "out", "inout"])
+            if v.qualifier == "const in":
+                v.writable = False
+            params.append(v)
+            self.declare(v)
+        functions = [f.name for f in self.functions if f not in (self.lim, self.low)]
+        name = r.choice(functions) if functions and r.random() < 0.35 else r.choice(FUNCTION_NAMES)
+        if any(f.name == name and len(f.params) == len(params) for f in self.functions) or \
+                isinstance(self.scopes[0].get(name), Variable):
+            name = f"f{len(self.functions)}"
+        function = Function(name, t, params, range=self.range_for(t) if t != VOID else None,
+                            prototype=r.random() < 0.2)
+        if t.dims and t.base in ("int", "uint"):
+            function.range = None if self.dialect.integers else MANY
+        self.current = function
+        self.loops = self.switches = 0
+        self.budget = r.randint(2, 7)
+        self.scopes.append({})  # what the body declares hides the parameters at most in inner blocks
+        self.scopes[-1] = dict(self.scopes[-2])
+        body = [self.first_value(p) for i, p in enumerate(params) if function.out(i) and p.qualifier == "out"]
+        body += self.statements(r.randint(1, 4))
+        if t != VOID:
+            body.append(S("return", [self.returned()]))
+        self.scopes.pop()
+        self.scopes.pop()
+        function.body = body
+        self.finish(function)
+
+    def returned(self) -> E:
+        f = self.current
+        e = self.settled(f.type, Context(2), f.range)
+        if f.type.dims and f.type.base not in ("bool", "struct") and not self.keeps(e, f.range):
+            e = self.simple(f.type, f.range)
+        return e
+
+    def finish(self, function: Function) -> None:
+        reads: frozenset = frozenset()
+        writes: frozenset = frozenset()
+        for one in function.body:
+            for s in one.walk():
+                function.discards |= s.kind == "discard"
+                for e in own_expressions(s):
+                    reads, writes = reads | e.reads, writes | e.writes
+                    function.discards |= self.discarding(e)
+        outside = set(self.program.globals) | {v for v in self.scopes[0].values() if isinstance(v, Variable)}
+        function.reads = frozenset(reads & outside)
+        function.writes = frozenset(writes & outside)
+        self.functions.append(function)
+        self.program.declarations.append(function)
+        self.scopes[0][function.name] = function
+
+    def first_value(self, v: Variable) -> S:
+        e = E("assign", v.type, [var(v), self.simple(v.type, v.range)], "=", v.range)
+        e.writes |= {v}
+        return S("expr", [e])
+
+    def main(self) -> None:
+        r = self.random
+        function = Function("main", VOID, [])
+        self.current = function
+        self.loops = self.switches = 0
+        self.budget = r.randint(8, 20)
+        self.scopes.append({})
+        body = [s for v in self.outputs for s in self.first_values(v)]
+        x, y = (E("ctor", INT, [E("swizzle", FLOAT, [var(self.coord)], c, (0.5, 31.5), 1)], range_=(0, 31)) for c in "xy")
+        self.pix = Variable("pix", INT, "local", (0, WIDTH * HEIGHT - 1), False)
+        at = E("bin", INT, [E("bin", INT, [y, lit(INT, WIDTH)], "*"), x], "+")
+        body.append(S("decl", [at], data=[(self.declare(self.pix), 0)]))
+        body += self.statements(r.randint(4, 9))
+        for v in self.outputs:
+            body.append(self.output(v))
+        used = E("call", BOOL, [], self.scopes[0]["used"])
+        body.append(S("if", [used], [S("block", body=self.first_values(self.outputs[0]))]))
+        self.scopes.pop()
+        function.body = body
+        self.finish(function)
+
+    def used(self) -> None:
+        """Keeps the driver from dropping uniforms that nothing drawn depends on: those have no value to show."""
+        test = lit(BOOL, False)
+        for v in self.program.globals:
+            if v.storage != "uniform":
+                continue
+            e = E("index", v.type.element(), [var(v), lit(INT, 0)]) if v.type.dims else var(v)
+            if e.type.is_vector():
+                e = E("swizzle", e.type.scalar(), [e], "x")
+            if e.type == BOOL:
+                left = E("swizzle", FLOAT, [var(self.coord)], "x", (0.5, 31.5), 1)
+                one = E("logic", BOOL, [e, E("bin", BOOL, [left, lit(FLOAT, 0.25)], "<")], "&&")
+            else:
+                one = E("bin", BOOL, [e, lit(e.type, 77)], "==")
+            test = E("logic", BOOL, [test, one], "||")
+        self.finish(Function("used", BOOL, [], [S("return", [test])]))
+
+    def first_values(self, v: Variable) -> list[S]:
+        if not v.type.dims:
+            return [self.first_value(v)]
+        made = []
+        for i in range(v.type.dims[0]):
+            made += self.fill(E("index", v.type.element(), [var(v), lit(INT, i)]), v.type.element(), v.range)
+        return made
+
+    def output(self, v: Variable) -> S:
+        """What it draws with depends on what was computed; a zero's sign never gets there."""
+        if self.visible().get(v.name, v) is not v:
+            return S("empty")
+        target, t = var(v), v.type
+        if t.dims:
+            target = E("index", t.element(), [target, lit(INT, self.random.randrange(t.dims[0]))], range_=v.range, frac=2)
+            t = t.element()
+        if t.base == "float":
+            one = t.scalar()
+            e = self.settled(t, Context(2), REST)
+            if v.name == "gl_FragDepth":
+                scaled = E("bin", one, [e, lit(one, 512.0)], "/", (-0.125, 0.125), e.frac + 9)
+                e = E("bin", one, [scaled, lit(one, 0.5)], "+", (0.25, 0.75), 11)
+            else:
+                e = E("bin", t, [e, lit(one, 128.0)], "+", (64.0, 192.0), 2)
+        else:
+            e = self.expression(t, Context(3))
+        assign = E("assign", t, [target, e], "=", v.range)
+        assign.writes |= {v}
+        return S("expr", [assign])
+
+    # ---- statements ---------------------------------------------------------------------------------------------
+
+    def statements(self, count: int) -> list[S]:
+        made: list[S] = []
+        for _ in range(count):
+            if self.budget <= 0 and made:
+                break
+            self.budget -= 1
+            made += self.statement()
+            if made and made[-1].kind in ("return", "break", "continue", "discard") and self.random.random() < 0.8:
+                break
+        return made
+
+    def body(self, count: int | None = None) -> S:
+        """Of a loop or a branch: a block, or one statement without braces."""
+        r = self.random
+        if r.random() < 0.3:
+            self.scopes.append({})
+            made = self.statement(single=True)
+            self.scopes.pop()
+            if len(made) == 1 and made[0].kind != "decl":
+                return made[0]
+            return S("block", body=made)
+        return self.block(count)
+
+    def block(self, count: int | None = None) -> S:
+        self.scopes.append({})
+        made = self.statements(count or self.random.randint(1, 3))
+        self.scopes.pop()
+        return S("block", body=made)
+
+    def statement(self, single: bool = False) -> list[S]:
+        r = self.random
+        nested = len(self.scopes) < 7 and self.budget > 0
+        ways = [(self.expression_statement, 10), (self.declaration, 0 if single else 7), (self.memory, 2),
+                (self.jump, 3), (lambda: [S("empty")], 0.4)]
+        if nested:
+            ways += [(self.if_, 5), (self.loop, 4), (lambda: [self.block()], 1)]
+            if self.dialect.integers:
+                ways.append((self.switch, 2))
+        way = r.choices([w for w, _ in ways], [weight for _, weight in ways])[0]
+        return way() or [S("empty")]
+
+    def expression_statement(self) -> list[S]:
+        r = self.random
+        ctx = Context(3)
+        x = r.random()
+        if x < 0.12:
+            types = [t for t in (v.type for v in self.variables(ctx)) if self.is_value(t)] or [INT]
+            return [S("expr", [self.expression(r.choice(types), ctx)])]
+        if x < 0.24 and not self.dialect.es or not self.dialect.integers:
+            changed = self.compound_float()
+            if changed:
+                return changed
+        e = self.effect(ctx)
+        if e is None:
+            return [S("empty")]
+        if x > 0.93:
+            second = self.effect(ctx)
+            if second is not None:
+                e = E("comma", second.type, [e, second])
+        return [S("expr", [e])]
+
+    def compound_float(self) -> list[S]:
+        """x += e; x = clamp(x, ...);"""
+        target = self.lvalue(FLOAT, Context(2), REST)
+        if target is None or any(one.kind not in ("var", "index", "member", "swizzle", "lit") for one in target.walk()):
+            return []
+        e = self.settled(FLOAT, Context(2).beside(target), REST)
+        first = E("assign", FLOAT, [target, e], self.random.choice(["+=", "-="]))
+        root = next(self.root(target))
+        first.writes |= {root}
+        clamp = E("builtin", FLOAT, [target, lit(FLOAT, REST[0]), lit(FLOAT, REST[1])], "clamp", REST, 2)
+        second = E("assign", FLOAT, [target, clamp], "=", REST, 2)
+        second.writes |= {root}
+        if self.random.random() < 0.5:
+            return [S("expr", [E("comma", FLOAT, [first, second])])]
+        return [S("block", body=[S("expr", [first]), S("expr", [second])])]
+
+    def declaration(self) -> list[S]:
+        r = self.random
+        t = self.type()
+        base = Type(t.base, t.rows, t.cols, (), t.struct)
+        names, exprs, later = [], [], []
+        for n in range(r.choice([1, 1, 1, 2, 3])):
+            own = t if n == 0 or r.random() < 0.3 else base
+            v = Variable(self.name(), own, "local", self.range_for(own))
+            init = None
+            if self.is_value(own) and r.random() < 0.85:
+                init = self.settled(own, Context(3), v.range)
+                if own.dims and own.base not in ("bool", "struct") and not self.keeps(init, v.range):
+                    init = self.simple(own, v.range)
+            names.append((v, 0))
+            exprs.append(init)
+            self.declare(v)
+            if init is None:
+                v.ready = False
+                later += self.fill(var(v), own, v.range)
+        for v, _ in names:
+            v.ready = True
+        return [S("decl", exprs, data=names)] + later
+
+    def fill(self, target: E, t: Type, range_) -> list[S]:
+        """Assigns every component, in the largest pieces that this version can assign."""
+        if self.is_value(t):
+            e = E("assign", t, [target, self.simple(t, range_)], "=", range_)
+            e.writes |= {next(self.root(target))}
+            return [S("expr", [e])]
+        if t.struct and not t.dims:
+            made = []
+            for name, member in t.struct.members:
+                made += self.fill(E("member", member, [target], name), member, self.rest(member))
+            return made
+        made = []
+        for i in range(t.dims[0]):
+            made += self.fill(E("index", t.element(), [target, lit(INT, i)]), t.element(), range_)
+        return made
+
+    def memory(self) -> list[S]:
+        r = self.random
+        seen = self.visible()
+        if self.current.name != "main" or not isinstance(seen.get("pix"), Variable) or seen["pix"] is not self.pix:
+            return []
+        found = [v for v in seen.values() if isinstance(v, Variable) and v.storage in ("buffer", "image", "counter")]
+        if not found:
+            return []
+        v = r.choice(found)
+        if v.storage == "counter":
+            e = E("memory", UINT, [], ("increment", v))
+        elif v.storage == "image":
+            e = E("memory", VOID, [var(self.pix), self.expression(INT, Context(2))], ("store", v))
+        elif v.type.dims:
+            cell = E("index", INT, [var(v), var(self.pix)])
+            e = E("assign", INT, [cell, self.expression(INT, Context(2))], r.choice(["=", "+=", "^="]))
+        else:
+            e = E("memory", INT, [var(v), self.expression(INT, Context(2))], (self.atomic, v))
+        e.writes |= {v}
+        return [S("expr", [e])]
+
+    def jump(self) -> list[S]:
+        r = self.random
+        choices = ["return"] * 2
+        if self.loops and self.switches == 0:
+            choices += ["break", "continue"] * 3
+        elif self.switches:
+            choices += ["break"] * 2 + (["continue"] if self.loops else [])
+        if r.random() < 0.3:
+            choices += ["discard"]
+        kind = r.choice(choices)
+        if self.current.name == "main" and kind == "return" and r.random() < 0.6:
+            return []
+        exprs = [self.returned()] if kind == "return" and self.current.type != VOID else []
+        jump = S(kind, exprs)
+        if r.random() < 0.1 and kind != "discard":
+            return [jump]
+        condition = self.expression(BOOL, Context(2))
+        if kind in ("discard", "return"):
+            condition = E("logic", BOOL, [condition, self.rare()], "&&")
+        return [S("if", [condition], [jump if r.random() < 0.6 else S("block", body=[jump])])]
+
+    def rare(self) -> E:
+        """True on few pixels."""
+        c = E("swizzle", FLOAT, [var(self.coord)], self.random.choice("xy"), (0.5, 31.5), 1)
+        return E("bin", BOOL, [c, lit(FLOAT, float(self.random.randint(1, 4)))], self.random.choice("<>"))
+
+    def if_(self) -> list[S]:
+        r = self.random
+        made = S("if", [self.expression(BOOL, Context(3))], [self.body()])
+        if r.random() < 0.45:
+            if made.body[0].kind == "if":  # whose else?
+                made.body = [S("block", body=[made.body[0]])]
+            made.body.append(self.body())
+        return [made]
+
+    def counter(self, range_) -> Variable:
+        return Variable(self.name(), INT, "local", range_, False)
+
+    def loop(self) -> list[S]:
+        r = self.random
+        n = r.choice([1, 2, 2, 3, 3, 4])
+        kind = r.choice(["for", "for", "for", "while", "do", "forever", "cond-decl"])
+        saved = self.loops, self.switches
+        self.scopes.append({})
+        if kind == "for":
+            made = self.for_(n)
+        else:
+            k = self.declare(self.counter((0, n + 1)))
+            first = S("decl", [lit(INT, 0)], data=[(k, 0)])
+            step = E("incdec", INT, [var(k)], ("++", kind != "while"))
+            step.writes |= {k}
+            going = E("bin", BOOL, [step, lit(INT, n)], "<")
+            if r.random() < 0.4 and kind != "forever":
+                extra = self.expression(BOOL, Context(2))
+                going = E("logic", BOOL, [going, extra], "&&")
+            if kind == "cond-decl" and r.random() < 0.5:
+                going = E("bin", BOOL, [step, lit(INT, n)], "<")
+            self.loops, self.switches = self.loops + 1, 0
+            if kind == "while":
+                loop = S("while", [going], [self.body()])
+            elif kind == "cond-decl":
+                v = Variable(self.name(), BOOL, "condition", None, False)
+                if v.name in self.scopes[-1]:
+                    v.name = "going"
+                self.scopes.append({})
+                self.declare(v)
+                loop = S("while", [going], [self.block()], data=v)
+                self.scopes.pop()
+            elif kind == "do":
+                loop = S("do", [going], [self.body()])
+            else:
+                inner = self.block()
+                stop = S("if", [E("bin", BOOL, [step, lit(INT, n)], ">")], [S("break")])
+                inner.body.insert(0, stop)
+                head = r.choice(["for", "while"])
+                loop = S("for", [None, None], [S("empty"), inner]) if head == "for" else \
+                    S("while", [lit(BOOL, True)], [inner])
+            made = [S("block", body=[first, loop])]
+        self.scopes.pop()
+        self.loops, self.switches = saved
+        return made
+
+    def for_(self, n: int) -> list[S]:
+        r = self.random
+        i = self.counter((0, max(n - 1, 0)))
+        start = lit(INT, 0)
+        names, exprs = [(i, 0)], [start]
+        self.declare(i)
+        if r.random() < 0.25:
+            v = Variable(self.name(), INT, "local", self.range_for(INT))
+            if v.name not in self.scopes[-1]:
+                exprs.append(self.settled(INT, Context(2), v.range))
+                names.append((v, 0))
+                self.declare(v)
+        init = S("decl", exprs, data=names)
+        going = E("bin", BOOL, [var(i), lit(INT, n)], "<")
+        if r.random() < 0.35:
+            going = E("logic", BOOL, [going, self.expression(BOOL, Context(2))], "&&")
+        step = E("incdec", INT, [var(i)], ("++", r.random() < 0.5))
+        step.writes |= {i}
+        if r.random() < 0.2:
+            step = E("assign", INT, [var(i), lit(INT, 1)], "+=")
+            step.writes |= {i}
+        if r.random() < 0.3:
+            more = self.effect(Context(2))
+            if more is not None:
+                step = E("comma", INT, [more, step]) if r.random() < 0.5 else E("comma", more.type, [step, more])
+        self.loops, self.switches = self.loops + 1, 0
+        self.scopes.append(dict(self.scopes[-1]))  # the body may not declare the counter's name again
+        body = self.body()
+        self.scopes.pop()
+        return [S("for", [going, step], [init, body])]
+
+    def switch(self) -> list[S]:
+        r = self.random
+        labels = r.sample(range(-1, 5), r.randint(1, 4))
+        selector = self.settled(INT, Context(3), (0, 7)) if r.random() < 0.7 else self.expression(INT, Context(2))
+        cases: list = []
+        default = r.randint(0, 2 * len(labels))
+        saved = self.switches
+        self.switches += 1
+        body: list[S] = []
+        self.scopes.append({})
+        for n, label in enumerate(labels):
+            here = [label] + ([None] if n == default else [])
+            r.shuffle(here)
+            body += [S("case", data=one) for one in here]
+            if r.random() < 0.2 and n + 1 < len(labels):
+                continue
+            self.scopes.append({})
+            made = self.statements(r.randint(1, 2))
+            self.scopes.pop()
+            if any(one.kind == "decl" for one in made):
+                made = [S("block", body=made)]
+            if r.random() < 0.6:
+                made.append(S("break"))
+            body += made or [S("empty")]
+        if body[-1].kind == "case":
+            body.append(S("empty"))
+        self.scopes.pop()
+        self.switches = saved
+        return [S("switch", [selector], body)]
+
+
+def own_expressions(s: S):
+    return [e for e in s.exprs if e is not None]
+
+
+def has_array(t: Type) -> bool:
+    return bool(t.dims) or bool(t.struct and any(has_array(member) for _, member in t.struct.members))
+
+
+def dialect_of(seed: int) -> Dialect:
+    return DIALECTS[seed % len(DIALECTS)]
