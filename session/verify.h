@@ -1,5 +1,6 @@
 // `verify`: steps through every site of a draw's fragment shader by every capture plan that the driver
-// offers, and compares what must be equal. The debugger tests itself on the user's own shaders and driver.
+// offers, takes every measure, and compares what must be equal. The debugger tests itself on the user's own
+// shaders and driver.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,12 @@
 namespace shadestep::session {
 
 struct VerifyOptions {
-  int pixels = 8;                // recorded and compared in each draw, spread over what the draw covers
-  int draws_per_shader = 1;      // later draws with the same program and text are skipped
-  double seconds_per_draw = 60;  // then the rest of the draw's sites is skipped
+  int pixels = 8;                  // recorded and compared in each draw, spread over what the draw covers
+  int draws_per_shader = 1;        // later draws with the same program and text are skipped
+  double seconds_per_draw = 60;    // then the rest of the draw's sites is skipped
+  std::size_t window_probes = 24;  // of all probes, spread over the shader, those that also go into windows
+  std::size_t redrawn_steps = 20;  // of one pixel's run, that are also followed by redraws
+  std::size_t counted_statements = 8;  // whose runs are counted as `profile` counts them
 };
 
 // One thing that was not as it must be, so that a person can look at it again with `shadestep debug`.
@@ -26,7 +30,9 @@ struct VerifyFailure {
   Kind kind = Kind::value;
   std::uint64_t frame = 0, draw = 0;
   int line = 0, column = 0;  // 0: the whole draw
-  std::string plan;          // "copy", "single before", "single after", "recording", "state"
+  // "copy", "single before", "single after", "recording", "window", "redraws", "loops", "count", "clock",
+  // "state"
+  std::string plan;
   std::string variable;
   std::string detail;
 };

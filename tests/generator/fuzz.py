@@ -51,7 +51,7 @@ def one(seed: int, options: argparse.Namespace) -> tuple[int, check.Outcome, Pat
     outcome = check.Check(program, dialect, folder, tools, str(seed)).run()
     if not outcome.kind:
         shutil.rmtree(folder)
-    elif options.reduce:
+    elif options.reduce and outcome.kind not in ("compile", "driver"):
         outcome = reduce(program, dialect, folder, tools, str(seed), outcome)
     return seed, outcome, folder
 

@@ -223,7 +223,7 @@ class Generator(Expressions):
                 v.writable = False
             params.append(v)
             self.declare(v)
-        functions = [f.name for f in self.functions if f not in (self.lim, self.low)]
+        functions = [f.name for f in self.functions if f not in (self.lim, self.low) and f.name != "used"]
         name = r.choice(functions) if functions and r.random() < 0.35 else r.choice(FUNCTION_NAMES)
         if any(f.name == name and len(f.params) == len(params) for f in self.functions) or \
                 isinstance(self.scopes[0].get(name), Variable):

@@ -67,6 +67,8 @@ class Reducer:
 def declarations(program: Program):
     """Takes out a function, a global, a structure."""
     for i in range(len(program.declarations) - 1):
+        if getattr(program.declarations[i], "name", "") == "used":
+            continue  # what keeps uniforms from being dropped
         yield lambda i=i: program.declarations.pop(i)
     for i in range(len(program.structs)):
         yield lambda i=i: program.structs.pop(i)
@@ -74,11 +76,13 @@ def declarations(program: Program):
 
 def statements(program: Program):
     for function in program.functions:
-        yield from inside(function.body)
+        if function.name != "used":
+            yield from inside(function.body, 1 if function is program.functions[-1] else 0)
 
 
-def inside(body: list[S]):
-    for i, s in enumerate(body):
+def inside(body: list[S], kept: int = 0):
+    """All but the last `kept` statements."""
+    for i, s in enumerate(body[:len(body) - kept]):
         if s.kind == "case":
             continue
         yield lambda i=i: body.pop(i)
@@ -113,7 +117,10 @@ def expressions(program: Program):
     for v in program.globals:
         if v.initializer is not None:
             yield from smaller(v.initializer, lambda e, v=v: setattr(v, "initializer", e))
+    used = {id(s) for f in program.functions if f.name == "used" for s in f.body} | {id(program.functions[-1].body[-1])}
     for s in program.statements():
+        if id(s) in used:
+            continue
         for i, e in enumerate(s.exprs):
             if e is not None:
                 yield from smaller(e, lambda new, s=s, i=i: s.exprs.__setitem__(i, new))

@@ -1,0 +1,27 @@
+#include "session/verify_findings.h"
+
+namespace shadestep::session {
+
+void Findings::fail(VerifyFailure::Kind kind, const frontend::Statement* at, const std::string& plan,
+                    const std::string& variable, const std::string& detail) {
+  std::uint64_t* counter[] = {&report_.compile_failed, &report_.output_mismatch, &report_.value_mismatch,
+                              &report_.state_leaks, &report_.crashes};
+  ++*counter[static_cast<int>(kind)];
+  if (report_.failures.size() >= VerifyReport::kMostFailures) return;
+  VerifyFailure failure{kind, session_.stop().frame, session_.stop().draw, 0, 0, plan, variable, detail};
+  if (at != nullptr) {
+    failure.line = at->place.line;
+    failure.column = at->place.column;
+  }
+  report_.failures.push_back(std::move(failure));
+}
+
+void Findings::checkOutputs(const frontend::Statement* at, const std::string& plan, const Check& check) {
+  if (check.compared_at_all && check.differing > 0) {
+    fail(VerifyFailure::Kind::output, at, plan, "",
+         std::to_string(check.differing) + " of " + std::to_string(check.compared) +
+             " components differ from the uninstrumented draw");
+  }
+}
+
+}  // namespace shadestep::session

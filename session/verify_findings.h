@@ -1,0 +1,44 @@
+// What `verify` has found so far: failures with their place, what was left out and why.
+#pragma once
+
+#include <string>
+
+#include "session/verify.h"
+
+namespace shadestep::session {
+
+class Findings {
+ public:
+  Findings(Session& session, VerifyReport& report) : session_(session), report_(report) {}
+
+  void skip(const std::string& reason) { ++report_.skipped[reason]; }
+  void site() { ++report_.sites; }
+  void compared() { ++report_.compared; }
+  // `at`: nullptr for the whole draw.
+  void fail(VerifyFailure::Kind, const frontend::Statement* at, const std::string& plan,
+            const std::string& variable, const std::string& detail);
+  // An instrumented draw must leave the outputs as they were.
+  void checkOutputs(const frontend::Statement* at, const std::string& plan, const Check&);
+
+  // Runs one plan's pass; false if there is no result.
+  template <class Pass>
+  bool attempt(const frontend::Statement* at, const std::string& plan, Pass pass) {
+    try {
+      ++report_.passes;
+      pass();
+      return true;
+    } catch (const DriverRefusal& refusal) {
+      fail(VerifyFailure::Kind::compile, at, plan, "", refusal.log());
+    } catch (const Error& error) {
+      if (error.outcome() != Outcome::cannot_debug) throw;
+      skip(plan + ": " + error.what());
+    }
+    return false;
+  }
+
+ private:
+  Session& session_;
+  VerifyReport& report_;
+};
+
+}  // namespace shadestep::session

@@ -1,0 +1,127 @@
+#include "session/verify_measures.h"
+
+#include <algorithm>
+#include <map>
+
+#include "session/loops.h"
+
+namespace shadestep::session {
+namespace {
+
+using frontend::Shader;
+using frontend::Statement;
+using frontend::StatementId;
+using frontend::StatementKind;
+using instrumenter::Event;
+using Kind = VerifyFailure::Kind;
+
+bool isLoop(const Statement& statement) {
+  return statement.kind == StatementKind::for_ || statement.kind == StatementKind::while_ ||
+         statement.kind == StatementKind::do_while;
+}
+
+// The event that has one record each time that the statement runs, or that its condition is evaluated.
+Event eventOf(const Statement& statement) {
+  switch (statement.kind) {
+    case StatementKind::if_:
+    case StatementKind::switch_:
+    case StatementKind::for_:
+    case StatementKind::while_:
+    case StatementKind::do_while:
+      return Event::condition;
+    case StatementKind::return_:
+      return Event::return_;
+    case StatementKind::break_:
+    case StatementKind::continue_:
+    case StatementKind::discard:
+      return Event::jump;
+    default:
+      return Event::statement;
+  }
+}
+
+std::uint32_t records(const RecordedPixel& one, StatementId id, Event event) {
+  std::uint32_t count = 0;
+  for (const instrumenter::Record& record : one.run().records) {
+    const auto& layout = one.recorded.layout.records[static_cast<std::size_t>(record.layout)];
+    if (layout.statement == id && layout.event == event) ++count;
+  }
+  return count;
+}
+
+std::size_t index(const Pixel& pixel, int width) {
+  return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(pixel.x);
+}
+
+void expect(Findings& findings, const Statement& at, const std::string& plan, const Pixel& pixel,
+            std::uint32_t counted, std::uint32_t recorded) {
+  findings.compared();
+  if (counted == recorded) return;
+  findings.fail(
+      Kind::value, &at, plan, "",
+      where(pixel) + ": counted " + std::to_string(counted) + ", recorded " + std::to_string(recorded));
+}
+
+}  // namespace
+
+void checkLoops(Session& session, Findings& findings, const std::vector<RecordedPixel>& recorded) {
+  const Shader& shader = session.shader(Stage::fragment);
+  if (std::none_of(shader.statements.begin(), shader.statements.end(), isLoop)) return;
+  LoopsReport report;
+  if (!findings.attempt(nullptr, "loops", [&] { report = profileLoops(session); })) return;
+  findings.checkOutputs(nullptr, "loops", report.check);
+  for (const LoopReport& loop : report.loops) {
+    const Statement& at = shader.statements[static_cast<std::size_t>(loop.statement)];
+    for (const RecordedPixel& one : recorded) {
+      expect(findings, at, "loops", one.pixel, loop.iterations.at(index(one.pixel, report.width)),
+             records(one, loop.statement, Event::iteration));
+    }
+  }
+}
+
+void checkCounts(Session& session, Findings& findings, const std::vector<RecordedPixel>& recorded,
+                 std::size_t most) {
+  const Shader& shader = session.shader(Stage::fragment);
+  std::vector<StatementId> all;
+  for (std::size_t id = 0; id < shader.statements.size(); ++id) {
+    const Statement& at = shader.statements[id];
+    if (at.function != frontend::kNone && at.kind != StatementKind::block &&
+        at.kind != StatementKind::case_label && !isForInit(shader, at))
+      all.push_back(static_cast<StatementId>(id));
+  }
+  std::vector<StatementId> chosen;
+  const std::size_t stride = (all.size() + most - 1) / std::max<std::size_t>(most, 1);
+  for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(stride, 1)) chosen.push_back(all[i]);
+  if (chosen.empty()) return;
+
+  Captured captured;
+  if (!findings.attempt(nullptr, "count", [&] {
+        auto result = instrumenter::instrumentCount(shader, chosen, session.target());
+        if (const auto* failure = std::get_if<instrumenter::Failure>(&result))
+          throw Error(Outcome::cannot_debug, failure->reason);
+        captured = session.capture(std::get<instrumenter::AttachmentShader>(result));
+      }))
+    return;
+  findings.checkOutputs(nullptr, "count", captured.execution.check);
+  for (const instrumenter::Field& field : captured.layout.fields) {
+    const StatementId id = std::stoi(field.name);
+    const Statement& at = shader.statements[static_cast<std::size_t>(id)];
+    for (const RecordedPixel& one : recorded) {
+      const auto words =
+          instrumenter::decode(captured.layout, field, captured.threads.at(one.pixel.x, one.pixel.y)).words;
+      expect(findings, at, "count", one.pixel, words.at(0), records(one, id, eventOf(at)));
+    }
+  }
+}
+
+void checkClock(Session& session, Findings& findings) {
+  const auto result = instrumenter::instrumentClock(session.shader(Stage::fragment), session.target());
+  const auto* shader = std::get_if<instrumenter::AttachmentShader>(&result);
+  if (shader == nullptr) return;
+  findings.attempt(nullptr, "clock", [&] {
+    findings.checkOutputs(nullptr, "clock", session.capture(*shader).execution.check);
+  });
+}
+
+}  // namespace shadestep::session

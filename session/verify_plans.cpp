@@ -1,0 +1,156 @@
+#include "session/verify_plans.h"
+
+#include <algorithm>
+
+#include "glsl-frontend/watch.h"
+#include "session/probed_run.h"
+#include "session/thread_run.h"
+#include "session/values.h"
+
+namespace shadestep::session {
+namespace {
+
+using frontend::Shader;
+using frontend::Statement;
+using instrumenter::Probe;
+using Kind = VerifyFailure::Kind;
+
+constexpr std::size_t kProbesAtOnce = 4;
+
+const Statement& statementOf(const Shader& shader, frontend::StatementId id) {
+  return shader.statements[static_cast<std::size_t>(id)];
+}
+
+// Words that one window's probe may take; below GLSL 1.30 most components take two channels.
+int roomFor(Session& session, const Probe& probe) {
+  const instrumenter::Target target = session.target();
+  const int channels = 4 * (target.max_draw_buffers - target.used_draw_buffers) - 1;
+  return (session.shader(Stage::fragment).version < 130 ? channels / 2 : channels) - (probe.outcome ? 1 : 0);
+}
+
+}  // namespace
+
+// ---- windows ---------------------------------------------------------------------------------------------
+
+void WindowCheck::add(const Probe& probe, const std::vector<Part>& parts, const ThreadValues& found) {
+  if (given_++ % stride_ != 0) return;
+  Item item{probe, {}, {}};
+  item.probe.watches.clear();
+  int room = roomFor(session_, probe);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const int words = frontend::wordCount(parts[i].type);
+    if (words > room) break;
+    room -= words;
+    item.parts.push_back(parts[i]);
+    item.probe.watches.push_back(probe.watches.at(i));
+  }
+  item.found = found;
+  item.found.values.resize(item.parts.size() + (probe.outcome ? 1 : 0));
+  waiting_.push_back(std::move(item));
+  if (waiting_.size() >= kProbesAtOnce) finish();
+}
+
+void WindowCheck::finish() {
+  if (waiting_.empty()) return;
+  const std::vector<Item> items = std::exchange(waiting_, {});
+  std::vector<Probe> probes;
+  for (const Item& item : items) probes.push_back(item.probe);
+  findings_.attempt(nullptr, "window", [&] {
+    Window window(session_, probes);
+    for (const Item& item : items) compare(window, item);
+  });
+}
+
+void WindowCheck::compare(Window& window, const Item& item) {
+  const Shader& shader = session_.shader(Stage::fragment);
+  const Statement& at = statementOf(shader, item.probe.statement);
+  const ThreadValues again = window.valuesAt(item.probe);
+  findings_.checkOutputs(&at, "window", again.check);
+  if (again.marks != item.found.marks) {
+    findings_.fail(Kind::value, &at, "window", "", "other threads get here than by a single probe");
+    return;
+  }
+  const std::size_t first = item.probe.outcome ? 1 : 0;
+  for (std::size_t i = 0; i < item.found.values.size(); ++i) {
+    const WatchedValues& one = item.found.values[i];
+    const WatchedValues& other = again.values.at(i);
+    std::size_t differing = 0;
+    std::size_t example = 0;
+    for (std::size_t p = 0; p < again.marks.size(); ++p) {
+      if (!again.reachedAt(p) || std::equal(one.at(p), one.at(p) + one.stride, other.at(p))) continue;
+      ++differing;
+      example = p;
+    }
+    findings_.compared();
+    if (differing == 0) continue;
+    if (i >= first && mayBeUndefined(shader, item.parts[i - first].variable)) continue;
+    const int width = std::max(again.width, 1);
+    const Pixel pixel{static_cast<int>(example) % width, static_cast<int>(example) / width};
+    findings_.fail(Kind::value, &at, "window", one.name,
+                   std::to_string(differing) + " threads differ from a single probe, such as " +
+                       where(pixel) + ": " + formatValue(other.valueAt(example)) + " instead of " +
+                       formatValue(one.valueAt(example)));
+  }
+}
+
+// ---- redraws ---------------------------------------------------------------------------------------------
+
+namespace {
+
+// What main itself did; how calls inside of its statements are shown differs.
+std::vector<Step> ownSteps(const std::vector<Step>& steps) {
+  std::vector<Step> own;
+  for (const Step& step : steps) {
+    if (step.depth == 0 && (step.kind == Step::Kind::statement || step.kind == Step::Kind::condition))
+      own.push_back(step);
+  }
+  return own;
+}
+
+void compareChanges(const Shader& shader, Findings& findings, const Pixel& pixel, const Step& redrawn,
+                    const Step& recorded) {
+  const Statement& at = statementOf(shader, redrawn.statement);
+  for (const NamedValue& value : redrawn.changed) {
+    const auto same = [&](const NamedValue& other) { return other.name == value.name; };
+    const auto other = std::find_if(recorded.changed.begin(), recorded.changed.end(), same);
+    if (other == recorded.changed.end()) continue;
+    const frontend::WatchResult meant = frontend::resolveWatchAfter(shader, redrawn.statement, value.name);
+    if (!meant.watch || mayBeUndefined(shader, meant.watch->variable)) continue;
+    findings.compared();
+    if (value.value == other->value) continue;
+    findings.fail(Kind::value, &at, "redraws", value.name,
+                  where(pixel) + ": " + formatValue(value.value) + ", recorded " + formatValue(other->value));
+  }
+}
+
+}  // namespace
+
+void checkRedrawnRun(Session& session, Findings& findings, const RecordedPixel& one, std::size_t most_steps) {
+  const Shader& shader = session.shader(Stage::fragment);
+  ThreadRun run;
+  if (!findings.attempt(nullptr, "redraws",
+                        [&] { run = followPixelByProbes(session, one.pixel.x, one.pixel.y, most_steps); }))
+    return;
+  findings.checkOutputs(nullptr, "redraws", run.check);
+  const std::vector<Step> redrawn = ownSteps(run.steps);
+  const std::vector<Step> recorded = ownSteps(stepsOf(shader, one.recorded.layout, one.run()));
+  for (std::size_t i = 0; i < std::min(redrawn.size(), recorded.size()); ++i) {
+    const Statement& at = statementOf(shader, redrawn[i].statement);
+    findings.compared();
+    if (redrawn[i].statement != recorded[i].statement || redrawn[i].iteration != recorded[i].iteration ||
+        redrawn[i].outcome != recorded[i].outcome) {
+      return findings.fail(Kind::value, &at, "redraws", "",
+                           where(one.pixel) + ": step " + std::to_string(i) + " of main is \"" +
+                               redrawn[i].outcome + "\" here, recorded at line " +
+                               std::to_string(recorded[i].line) + " \"" + recorded[i].outcome + "\"");
+    }
+    compareChanges(shader, findings, one.pixel, redrawn[i], recorded[i]);
+  }
+  if ((run.complete && redrawn.size() != recorded.size()) || redrawn.size() > recorded.size()) {
+    findings.fail(Kind::value, nullptr, "redraws", "",
+                  where(one.pixel) + ": " + std::to_string(redrawn.size()) + " steps of main, recorded " +
+                      std::to_string(recorded.size()));
+  }
+}
+
+}  // namespace shadestep::session
