@@ -27,6 +27,7 @@ class Camera {
   Camera(const Eigen::Vector3d& extent, const Orbit& orbit);
 
   const Eigen::Vector3d& position() const { return position_; }           // object space
+  const Eigen::Vector3d& forward() const { return forward_; }             // of length 1
   const Eigen::Matrix4d& modelViewProjection() const { return matrix_; }  // object -> clip space
   // False: the near plane cuts the box, so its front faces would be incomplete.
   bool outside() const { return outside_; }

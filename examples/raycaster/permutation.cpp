@@ -44,4 +44,16 @@ ShaderText shaderText(const SpectralPermutation& permutation) {
           assemble("spectral.frag", permutation.glsl, words)};
 }
 
+ShaderText sliceText(const Permutation& permutation) {
+  std::set<std::string> words = {"anyThickness"};
+  if (permutation.classification == Classification::post) words.insert("post");
+  if (permutation.counting) words.insert("counting");
+  return {permutation.glsl, assemble("raycast.vert", permutation.glsl, {}),
+          assemble("slice.frag", permutation.glsl, words)};
+}
+
+ShaderText reprojectionText(Glsl glsl) {
+  return {glsl, assemble("reproject.vert", glsl, {}), assemble("reproject.frag", glsl, {})};
+}
+
 }  // namespace raycaster

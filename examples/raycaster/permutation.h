@@ -41,5 +41,7 @@ struct ShaderText {
 };
 ShaderText shaderText(const Permutation&);
 ShaderText shaderText(const SpectralPermutation&);
+ShaderText sliceText(const Permutation&);  // of the permutation, dialect, classification and counting matter
+ShaderText reprojectionText(Glsl);
 
 }  // namespace raycaster

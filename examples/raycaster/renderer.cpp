@@ -1,10 +1,21 @@
 #include "renderer.h"
 
+#include "oracle.h"
+
 #include <stdexcept>
 
 namespace raycaster {
+namespace {
+
+constexpr double kLongestSlab = 256;  // steps that adaptive sampling may make one
+
+}  // namespace
+
 Permutation permutationFor(const Scene& scene, Glsl glsl, const Camera& camera) {
-  return {.glsl = glsl, .classification = scene.classification, .inside = !camera.outside()};
+  return {.glsl = glsl,
+          .classification = scene.classification,
+          .inside = !camera.outside(),
+          .adaptive = scene.adaptiveTolerance > 0 && camera.outside()};
 }
 
 Renderer::Renderer(const Gl& gl, const Scene& scene, const Permutation& permutation, int size)
@@ -16,6 +27,7 @@ Renderer::Renderer(const Gl& gl, const Scene& scene, const Permutation& permutat
   createSceneTextures(gl_, objects_, scene);
   program_ = objects_.program(text);
   setSceneUniforms(gl_, program_, scene);
+  if (permutation.adaptive) createOracle(scene);
   setBox(mesh_, scene.volume.extent);
   framebuffer_ = objects_.framebuffer({objects_.image(GL_TEXTURE2, colourFormat(scene.targetBits), size)});
   gl_.Enable(GL_CULL_FACE);
@@ -35,6 +47,17 @@ void Renderer::draw(const Camera& camera) {
   gl_.ClearColor(0, 0, 0, 0);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   mesh_.draw();
+}
+
+void Renderer::createOracle(const Scene& scene) {
+  const Eigen::Vector3i size = scene.volume.size;
+  const std::vector<float> distances =
+      samplingDistances(scene.volume, scene.transfer, scene.adaptiveTolerance);
+  objects_.texture(GL_TEXTURE5, GL_TEXTURE_3D);
+  gl_.TexImage3D(GL_TEXTURE_3D, 0, GL_R32F, size.x(), size.y(), size.z(), 0, GL_RED, GL_FLOAT,
+                 distances.data());
+  setUniform(gl_, program_, "oracle", 5);
+  setUniform(gl_, program_, "longestSlab", kLongestSlab);
 }
 
 void Renderer::copyToWindow() {

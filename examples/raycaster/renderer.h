@@ -14,11 +14,12 @@ struct Scene {
   Volume volume;
   TransferFunction transfer;
   Classification classification = Classification::preintegrated;
-  double step = 1.0 / 256;     // length of a slab in object space
-  double opacityLimit = 0.95;  // early ray termination; 0 = off
-  int tableSize = 256;         // texels an edge
-  int tableBits = 32;          // a component of the table: 8, 16 (half float) or 32 (float)
-  int targetBits = 32;         // the same of the image
+  double step = 1.0 / 256;       // length of a slab in object space
+  double opacityLimit = 0.95;    // early ray termination; 0 = off
+  int tableSize = 256;           // texels an edge
+  int tableBits = 32;            // a component of the table: 8, 16 (half float) or 32 (float)
+  int targetBits = 32;           // the same of the image
+  double adaptiveTolerance = 0;  // of absorption per length within a longer slab; 0: all slabs are one step
 };
 
 // What the shaders for a scene are, seen from that camera.
@@ -37,6 +38,8 @@ class Renderer {
   Image read();              // what the last draw() made, exactly
 
  private:
+  void createOracle(const Scene&);
+
   Gl gl_;
   Permutation permutation_;
   int size_;

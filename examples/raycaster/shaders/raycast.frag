@@ -11,7 +11,8 @@ uniform float opacityLimit;     // a ray ends when it is this opaque; above 1: n
 @end
 @if leaping
 uniform sampler2D start;        // a place before which the ray meets nothing (a = 1), or nothing is known (a = 0)
-uniform vec2 pixel;             // size of a pixel of `start`
+uniform float pixel;            // size of a pixel of `start`
+uniform float margin;           // steps to begin before that place
 @end
 @if adaptive
 uniform sampler3D oracle;       // how far around a place classification changes little, object space
@@ -19,9 +20,9 @@ uniform float longestSlab;      // in steps
 @end
 
 @if inside
-varying vec3 position;               // object space, somewhere on the ray
+varying vec3 position;          // object space, somewhere on the ray
 @else
-varying vec3 position;               // object space, on the front face
+varying vec3 position;          // object space, on the front face
 @end
 @output FragColor
 @if leaping
@@ -67,7 +68,11 @@ void main()
 @end
     int count = int(ceil(steps));
 @if counting
+@if leaping
+    float fetches = 3.0;        // with the start's and the reprojection's own
+@else
     float fetches = 1.0;
+@end
 @end
 
     vec4 dst = vec4(0.0);
@@ -77,7 +82,7 @@ void main()
     vec4 known = texture(start, gl_FragCoord.xy * pixel);
     int first = 0;
     if (known.a > 0.0)
-        first = int(clamp(floor(distance(known.xyz, position) / stepSize) - 1.0, 0.0, float(count)));
+        first = int(clamp(floor(dot(known.xyz - position, normalize(position - camera)) / stepSize) - margin, 0.0, float(count)));
     float scalarOld = texture(volume, entry + float(first) * dir).r;
     float hit = -1.0;
 
