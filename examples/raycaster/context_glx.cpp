@@ -1,6 +1,7 @@
 #include "context.h"
 // After context.h: glx.h would include GL/gl.h without the prototypes.
 #include <GL/glx.h>
+#include <X11/Xutil.h>
 
 #include <stdexcept>
 #include <vector>
@@ -21,6 +22,12 @@ class GlxContext : public Context {
     x11_.load(mapWindow_, "XMapWindow");
     x11_.load(storeName_, "XStoreName");
     x11_.load(free_, "XFree");
+    x11_.load(selectInput_, "XSelectInput");
+    x11_.load(pending_, "XPending");
+    x11_.load(nextEvent_, "XNextEvent");
+    x11_.load(lookupString_, "XLookupString");
+    x11_.load(internAtom_, "XInternAtom");
+    x11_.load(setProtocols_, "XSetWMProtocols");
     glx_.load(chooseFBConfig_, "glXChooseFBConfig");
     glx_.load(getVisual_, "glXGetVisualFromFBConfig");
     glx_.load(makeCurrent_, "glXMakeCurrent");
@@ -50,6 +57,42 @@ class GlxContext : public Context {
   }
   void present() override { swapBuffers_(display_, window_); }
 
+  Input input(bool wait) override {
+    Input input;
+    while (pending_(display_) > 0 || (wait && !input.any())) {
+      XEvent event;
+      nextEvent_(display_, &event);
+      switch (event.type) {
+        case ButtonPress:
+          if (event.xbutton.button == Button4) ++input.zoom;
+          if (event.xbutton.button == Button5) --input.zoom;
+          x_ = event.xbutton.x;
+          y_ = event.xbutton.y;
+          break;
+        case MotionNotify:
+          input.turnX += event.xmotion.x - x_;
+          input.turnY += event.xmotion.y - y_;
+          x_ = event.xmotion.x;
+          y_ = event.xmotion.y;
+          break;
+        case KeyPress: {
+          char text[8] = {};
+          if (lookupString_(&event.xkey, text, sizeof text - 1, nullptr, nullptr) > 0) input.keys += text;
+          break;
+        }
+        case Expose:
+          return input;  // what was there is gone: draw again
+        case ClientMessage:
+          input.closed = true;
+          break;
+        default:
+          break;
+      }
+    }
+    return input;
+  }
+  void setTitle(const std::string& title) override { storeName_(display_, window_, title.c_str()); }
+
  private:
   void create(Profile profile, int width, int height) {
     const int wanted[] = {GLX_DOUBLEBUFFER, True, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8, None};
@@ -65,6 +108,9 @@ class GlxContext : public Context {
                             static_cast<unsigned>(height), 0, visual->depth, InputOutput, visual->visual,
                             CWColormap | CWBorderPixel, &window);
     storeName_(display_, window_, "raycaster");
+    selectInput_(display_, window_, ExposureMask | KeyPressMask | ButtonPressMask | Button1MotionMask);
+    Atom closing = internAtom_(display_, "WM_DELETE_WINDOW", False);
+    setProtocols_(display_, window_, &closing, 1);
     mapWindow_(display_, window_);
 
     PFNGLXCREATECONTEXTATTRIBSARBPROC createContext;
@@ -92,6 +138,12 @@ class GlxContext : public Context {
   decltype(&::XMapWindow) mapWindow_;
   decltype(&::XStoreName) storeName_;
   decltype(&::XFree) free_;
+  decltype(&::XSelectInput) selectInput_;
+  decltype(&::XPending) pending_;
+  decltype(&::XNextEvent) nextEvent_;
+  decltype(&::XLookupString) lookupString_;
+  decltype(&::XInternAtom) internAtom_;
+  decltype(&::XSetWMProtocols) setProtocols_;
   decltype(&::glXChooseFBConfig) chooseFBConfig_;
   decltype(&::glXGetVisualFromFBConfig) getVisual_;
   decltype(&::glXMakeCurrent) makeCurrent_;
@@ -100,6 +152,7 @@ class GlxContext : public Context {
   decltype(&::glXGetProcAddressARB) getProcAddress_;
   Display* display_ = nullptr;
   Window window_ = 0;
+  int x_ = 0, y_ = 0;  // where the pointer was
   GLXContext context_ = nullptr;
 };
 

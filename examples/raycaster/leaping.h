@@ -10,7 +10,7 @@ namespace raycaster {
 // pixels' width, the nearest winning; where none lands, rays begin on the front face. A ray's start is
 // rounded to its own lattice of samples, so that a frame is bit for bit that without leaping unless a start
 // lies behind something (a miss).
-class LeapingRenderer {
+class LeapingRenderer : public Drawing {
  public:
   struct Care {
     float splat = 3;    // width of a point, pixels
@@ -21,10 +21,10 @@ class LeapingRenderer {
   LeapingRenderer(const Gl& gl, const Scene& scene, const Permutation& permutation, int size)
       : LeapingRenderer(gl, scene, permutation, size, Care()) {}
 
-  void draw(const Camera&);
+  void draw(const Camera&) override;
   void forget() { known_ = false; }  // the next frame begins on the front faces
-  void copyToWindow();
-  Image read();
+  void copyToWindow() override;
+  Image read() override;
 
  private:
   void reproject(const Camera&);

@@ -1,61 +1,51 @@
 // A volume ray caster: an ordinary OpenGL program. Exit status: 0 done, 1 it cannot draw here, 2 usage.
-#include <cmath>
 #include <iostream>
 
-#include "context.h"
-#include "options.h"
-#include "renderer.h"
+#include "bench.h"
+#include "prepared.h"
+#include "window.h"
 
 namespace raycaster {
 namespace {
 
-Volume volumeFor(const Options& options) {
-  const auto synthetic = syntheticVolume(options.volume);
-  return synthetic ? (*synthetic)() : readVolume(options.volume, options.raw);
-}
-
-Scene sceneFor(const Options& options) {
-  return {.volume = volumeFor(options),
-          .transfer = *TransferFunction::preset(options.transfer),
-          .classification = options.classification,
-          .step = options.step,
-          .opacityLimit = options.opacityLimit,
-          .tableSize = options.tableSize,
-          .tableBits = options.tableBits,
-          .targetBits = options.targetBits};
-}
-
-Camera cameraFor(const Options& options, const Scene& scene, int frame) {
+Camera cameraFor(const Options& options, const Volume& volume, int frame) {
   Orbit orbit = options.orbit;
   orbit.yaw += frame * options.turn;
-  return Camera(scene.volume.extent, orbit);
+  return Camera(volume.extent, orbit);
 }
 
 // llvmpipe ends every loop after 65,536 iterations without a word; say it for it.
-void warnOfLoopLimit(const Gl& gl, const Scene& scene) {
+void warnOfLoopLimit(const Gl& gl, const Volume& volume, double step) {
   const std::string renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
-  if (renderer.find("llvmpipe") != std::string::npos && scene.volume.extent.norm() / scene.step > 65536)
+  if (renderer.find("llvmpipe") != std::string::npos && volume.extent.norm() / step > 65536)
     std::cerr << "raycaster: llvmpipe cuts rays of more than 65536 samples short; use a larger --step\n";
 }
 
-int run(const Options& options) {
-  const Scene scene = sceneFor(options);
+void drawFrames(Context& context, const Gl& gl, const Options& options) {
+  const Volume volume = volumeFor(options);
+  Prepared prepared = prepare(gl, options, volume, cameraFor(options, volume, 0), options.countFetches);
+  if (options.explain) std::cout << prepared.explanation;
+  warnOfLoopLimit(gl, volume, prepared.step);
+  Image image;
+  for (int frame = 0; frame < options.frames; ++frame) {
+    prepared.drawing->draw(cameraFor(options, volume, frame));
+    if (frame + 1 == options.frames && !options.out.empty()) image = prepared.drawing->read();
+    prepared.drawing->copyToWindow();
+    context.present();
+  }
+  if (!options.out.empty()) write(image, options.out);
+}
+
+void run(const Options& options) {
   const Profile profile = options.glsl == Glsl::v330 ? Profile::core : Profile::compatibility;
   const auto context = createContext(options.context, profile, options.size, options.size);
   const Gl gl = loadGl([&](const char* name) { return context->address(name); });
-  warnOfLoopLimit(gl, scene);
-
-  Renderer renderer(gl, scene, permutationFor(scene, options.glsl, cameraFor(options, scene, 0)),
-                    options.size);
-  Image image;
-  for (int frame = 0; frame < options.frames; ++frame) {
-    renderer.draw(cameraFor(options, scene, frame));
-    if (frame + 1 == options.frames && !options.out.empty()) image = renderer.read();
-    renderer.copyToWindow();
-    context->present();
-  }
-  if (!options.out.empty()) write(image, options.out);
-  return 0;
+  if (options.interactive)
+    interact(*context, gl, options);
+  else if (options.bench)
+    std::cout << bench(gl, options);
+  else
+    drawFrames(*context, gl, options);
 }
 
 }  // namespace
@@ -65,7 +55,8 @@ int main(int argc, char** argv) {
   const raycaster::CommandLine line = raycaster::parse(argc, argv);
   if (!line.parsed) return line.exit;
   try {
-    return raycaster::run(line.options);
+    raycaster::run(line.options);
+    return 0;
   } catch (const std::exception& error) {
     std::cerr << "raycaster: " << error.what() << '\n';
     return 1;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "image_file.h"
+#include "medium.h"
 #include "transfer_function.h"
 
 namespace raycaster {
@@ -30,6 +31,50 @@ void addChoice(CLI::App& app, const std::string& name, Value& value,
   app.add_option_function<std::string>(
          name, [&value, choices](const std::string& chosen) { value = choices.at(chosen); }, help)
       ->check(CLI::IsMember(names));
+}
+
+// How to draw, beyond what a plain ray caster has.
+void addChoices(CLI::App& app, Options& options) {
+  app.add_option("--medium", options.medium,
+                 "a medium with spectral properties instead of a transfer function, before a backdrop")
+      ->check(CLI::IsMember(SpectralMedium::presets()));
+  app.add_option("--wavelengths", options.wavelengths, "of a medium")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
+  addChoice<Storage>(app, "--storage", options.storage,
+                     {{"coefficients", Storage::coefficients},
+                      {"transmittance", Storage::transmittance},
+                      {"opacity", Storage::opacity}},
+                     "what the table of a scattering medium holds (coefficients)");
+  app.add_flag("--slices", options.slices, "screen-aligned slices instead of rays");
+  app.add_flag("--leap", options.leap, "rays begin where those of the last frame met something");
+  app.add_option("--adaptive", options.adaptive,
+                 "longer slabs where absorption varies by less than this per length; 0: never")
+      ->check(number(0.0, 1e6))
+      ->capture_default_str();
+  app.add_option(
+         "--budget", options.budget,
+         "choose step, tables, termination and wavelengths so that the error stays below this; 0: as given")
+      ->check(number(0.0, 1.0));
+  app.add_flag("--explain", options.explain, "print the plan for --budget");
+  app.add_flag("--bench", options.bench, "print times and fetches as JSON");
+  app.add_flag("--fetches", options.countFetches, "draw how many texels each ray fetches");
+  app.add_flag("--interactive", options.interactive,
+               "a window: drag to orbit, wheel or +/- to zoom, space for the next preset, q to leave");
+}
+
+// Options that exclude each other; "" if there is nothing to say.
+std::string contradiction(const Options& options) {
+  const bool emission = options.medium.empty();
+  if (!emission && (options.slices || options.leap || options.adaptive > 0))
+    return "--medium cannot be drawn with --slices, --leap or --adaptive; leave those out";
+  if (int{options.slices} + int{options.leap} + int{options.adaptive > 0} > 1)
+    return "--slices, --leap and --adaptive exclude each other; choose one";
+  if (options.explain && options.budget == 0)
+    return "--explain explains a plan; give it a --budget, for instance 1e-3";
+  if (options.interactive && !options.out.empty())
+    return "--interactive writes no file; leave out --out or draw without a window";
+  return "";
 }
 
 }  // namespace
@@ -70,6 +115,7 @@ CommandLine parse(int argc, const char* const* argv) {
   app.add_option("--transfer", options.transfer, "transfer function")
       ->check(CLI::IsMember(TransferFunction::presets()))
       ->capture_default_str();
+  addChoices(app, options);
   app.add_option("--size", options.size, "width and height in pixels")
       ->check(CLI::Range(1, 8192))
       ->capture_default_str();
@@ -106,6 +152,9 @@ CommandLine parse(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
     if (!rawSize.empty()) options.raw = RawLayout{{rawSize[0], rawSize[1], rawSize[2]}, rawType};
+    if (options.interactive) options.context = ContextKind::glx;
+    const std::string wrong = contradiction(options);
+    if (!wrong.empty()) throw CLI::ValidationError(wrong);
     line.parsed = true;
   } catch (const CLI::CallForHelp& help) {
     line.exit = app.exit(help);

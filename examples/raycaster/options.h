@@ -18,6 +18,14 @@ struct Options {
   std::string volume = "c60";  // a synthetic one's name, or a file
   std::optional<RawLayout> raw;
   std::string transfer = "shells";
+  std::string medium;  // a spectral one's name; "" = the transfer function's
+  int wavelengths = 16;
+  Storage storage = Storage::coefficients;
+  bool slices = false;  // instead of rays
+  bool leap = false;
+  double adaptive = 0;  // tolerance; 0 = off
+  double budget = 0;    // root mean square error that a plan has to keep; 0 = the settings above as they are
+  bool explain = false, bench = false, interactive = false, countFetches = false;
   int size = 512;              // image, pixels an edge
   double step = 1.0 / 256;     // object space; the volume's edge is 1
   double opacityLimit = 0.95;  // 0 = off

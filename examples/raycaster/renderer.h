@@ -22,10 +22,19 @@ struct Scene {
   double adaptiveTolerance = 0;  // of absorption per length within a longer slab; 0: all slabs are one step
 };
 
+// One way to draw a scene into an image of its own.
+class Drawing {
+ public:
+  virtual ~Drawing() = default;
+  virtual void draw(const Camera&) = 0;
+  virtual void copyToWindow() = 0;  // the default framebuffer, of the same size
+  virtual Image read() = 0;         // what the last draw() made, exactly
+};
+
 // What the shaders for a scene are, seen from that camera.
 Permutation permutationFor(const Scene&, Glsl, const Camera&);
 
-class Renderer {
+class Renderer : public Drawing {
  public:
   // Builds textures, program and a size x size target in the current context, which must be current in the
   // destructor too. Throws std::runtime_error when the driver refuses. `text` is drawn with in place of the
@@ -33,9 +42,9 @@ class Renderer {
   Renderer(const Gl&, const Scene&, const Permutation&, int size);
   Renderer(const Gl&, const Scene&, const Permutation&, int size, const ShaderText& text);
 
-  void draw(const Camera&);  // one clear, one draw call
-  void copyToWindow();       // the default framebuffer, of the same size
-  Image read();              // what the last draw() made, exactly
+  void draw(const Camera&) override;  // one clear, one draw call
+  void copyToWindow() override;
+  Image read() override;
 
  private:
   void createOracle(const Scene&);

@@ -9,14 +9,14 @@ namespace raycaster {
 // extent]: corners in order, or nothing.
 std::vector<Eigen::Vector3d> slicePolygon(const Camera&, const Eigen::Vector3d& extent, double distance);
 
-class SlicingRenderer {
+class SlicingRenderer : public Drawing {
  public:
   // As Renderer. scene.targetBits is the precision in which slabs are blended.
   SlicingRenderer(const Gl&, const Scene&, const Permutation&, int size);
 
-  void draw(const Camera&);  // one draw call a slice
-  void copyToWindow();
-  Image read();
+  void draw(const Camera&) override;  // one draw call a slice
+  void copyToWindow() override;
+  Image read() override;
 
  private:
   Gl gl_;

@@ -3,21 +3,21 @@
 #pragma once
 
 #include "gl_objects.h"
-#include "image_file.h"
+#include "renderer.h"
 #include "spectral_scene.h"
 #include "spectrum.h"
 
 namespace raycaster {
 
-class SpectralRenderer {
+class SpectralRenderer : public Drawing {
  public:
   // As Renderer. Throws std::runtime_error if the CIE tables are not installed.
   SpectralRenderer(const Gl&, const SpectralScene&, const SpectralPermutation&, int size);
   SpectralRenderer(const Gl&, const SpectralScene&, const SpectralPermutation&, int size, const ShaderText&);
 
-  void draw(const Camera&);
-  void copyToWindow();
-  Image read();
+  void draw(const Camera&) override;
+  void copyToWindow() override;
+  Image read() override;
 
  private:
   void createMedium(const SpectralScene&, const std::vector<SpectralBin>&);

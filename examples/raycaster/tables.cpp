@@ -107,6 +107,18 @@ std::vector<float> fastTable(const TransferFunction& transfer, double length, in
 
 }  // namespace
 
+const char* nameOf(Classification classification) {
+  switch (classification) {
+    case Classification::post:
+      return "post";
+    case Classification::fast:
+      return "fast";
+    case Classification::preintegrated:
+      return "preintegrated";
+  }
+  return "";
+}
+
 std::vector<float> classificationTable(const TransferFunction& transfer, Classification classification,
                                        double length, int n) {
   switch (classification) {

@@ -11,6 +11,7 @@ namespace raycaster {
 // in which the scalar goes linearly from one end to the other (thesis 3.2.2); fast takes opacity and mean
 // colour from integral functions and so forgets that a slab's front hides its back.
 enum class Classification { post, fast, preintegrated };
+const char* nameOf(Classification);
 
 // RGBA texels. post: n x 1, colour and absorption. Else n x n, associated colour and opacity of a slab of
 // `length`; rows run along the scalar at the front.

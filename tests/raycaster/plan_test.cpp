@@ -1,0 +1,113 @@
+// Plans: the search itself, and that images drawn by a plan keep its promise.
+#include "plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drawing.h"
+#include "planner.h"
+#include "spectral_reference.h"
+#include "spectral_renderer.h"
+
+namespace raycaster {
+namespace {
+
+// Errors that add up as squares, as independent ones do.
+const std::vector<Knob> kKnobs = {{"a", {"0", "1", "2", "3", "4", "5"}, 0.9}, {"b", {"0", "1", "2"}, 1}};
+Trial squares(const std::vector<std::size_t>& at) {
+  const double a = 1e-4 * std::pow(2.0, at[0]), b = 1e-4 * std::pow(10.0, at[1]);
+  const double error = std::sqrt(a * a + b * b);
+  return {error, error, 0};
+}
+
+TEST(Plan, IsWithinTheBudgetAndNoKnobCanBeTurnedFurther) {
+  for (const double budget : {2e-4, 1e-3, 3e-3, 2e-2}) {
+    const Plan plan = choosePlan(kKnobs, budget, squares);
+    EXPECT_TRUE(plan.kept);
+    EXPECT_LE(plan.trial.bound, budget);
+    for (const Plan::Choice& choice : plan.choices) {
+      EXPECT_TRUE(choice.cheaper.empty() || choice.cheaperBound > budget) << choice.knob;
+    }
+  }
+}
+
+TEST(Plan, SaysWhenTheFinestIsNotFineEnough) {
+  const Plan plan = choosePlan(kKnobs, 1e-5, squares);
+  EXPECT_FALSE(plan.kept);
+  EXPECT_EQ(plan.settings, (std::vector<std::size_t>{0, 0}));
+}
+
+class PlannedBudget : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Budgets, PlannedBudget, testing::Values(1e-1, 1e-2, 1e-3, 1e-4),
+                         [](const auto& instance) {
+                           return "TenToMinus" + std::to_string(std::lround(-std::log10(instance.param)));
+                         });
+
+// The image's error is within what the plan predicts from a smaller pilot, and that within the budget.
+TEST_P(PlannedBudget, IsKeptByImages) {
+  constexpr int kSize = 72;
+  const double budget = GetParam();
+  const std::vector<std::pair<Volume, std::string>> scenes = {
+      {buckyball(32), "shells"}, {buckyball(32), "iso"}, {ramp(), "ramp"}, {marschnerLobb(24), "fog"}};
+  for (const auto& [volume, transfer] : scenes) {
+    const Offscreen offscreen(Glsl::v330, kSize);
+    const Scene scene{volume, *TransferFunction::preset(transfer)};
+    const Camera camera(volume.extent, {.yaw = 30, .pitch = 20});
+    const PlannedScene planned = planFor(offscreen.gl, Glsl::v330, scene, camera, kSize, budget);
+    ASSERT_TRUE(planned.plan.kept) << transfer;
+    ASSERT_LE(planned.plan.trial.bound, budget) << transfer;
+    const Error error = errorOf(render(planned.scene, camera, kSize), planned.scene, camera, 3);
+    EXPECT_LE(error.rms, planned.plan.trial.bound) << transfer << "\n"
+                                                   << explain(planned.plan, planned.leftOut, budget);
+  }
+}
+
+// The pilot being the image, one step cheaper measurably breaks the budget.
+TEST(Planned, OneStepCheaperBreaksTheBudget) {
+  constexpr int kSize = 32;
+  constexpr double kBudget = 2e-3;
+  const Offscreen offscreen(Glsl::v330, kSize);
+  const Scene scene{buckyball(32), *TransferFunction::preset("shells")};
+  const Camera camera(scene.volume.extent, {.yaw = 30, .pitch = 20});
+  const PlannedScene planned = planFor(offscreen.gl, Glsl::v330, scene, camera, kSize, kBudget);
+  EXPECT_LE(errorOf(render(planned.scene, camera, kSize), scene, camera).rms, kBudget);
+  Scene cheaper = planned.scene;
+  cheaper.step *= std::sqrt(2);
+  EXPECT_GT(errorOf(render(cheaper, camera, kSize), scene, camera).rms, kBudget);
+  cheaper = planned.scene;
+  cheaper.tableSize /= 2;
+  EXPECT_GT(errorOf(render(cheaper, camera, kSize), scene, camera).rms, kBudget);
+  cheaper = planned.scene;
+  cheaper.tableBits = 8;
+  EXPECT_GT(errorOf(render(cheaper, camera, kSize), scene, camera).rms, kBudget);
+}
+
+TEST(Planned, SpectralImagesKeepTheirBudget) {
+  constexpr int kSize = 32;
+  for (const auto& [name, budget] : {std::pair{"ink", 1e-3}, {"milk", 1e-2}, {"milk", 1e-3}}) {
+    const Offscreen offscreen(Glsl::v330, kSize);
+    const SpectralScene scene{.volume = buckyball(24), .medium = *SpectralMedium::preset(name)};
+    const Camera camera(scene.volume.extent, {.yaw = 30, .pitch = 20});
+    const PlannedSpectralScene planned = planFor(offscreen.gl, Glsl::v330, scene, camera, kSize, budget);
+    ASSERT_TRUE(planned.plan.kept) << name;
+    SpectralRenderer renderer(offscreen.gl, planned.scene, permutationFor(planned.scene, Glsl::v330), kSize);
+    renderer.draw(camera);
+    const Image image = renderer.read();
+    const BackdropPlane backdrop(scene.backdrop, camera, scene.volume.extent);
+    const std::vector<SpectralBin> bins = spectralBins(80);
+    double squared = 0;
+    int count = 0;
+    for (int i = 0; i < kSize * kSize; i += 7) {
+      const Eigen::Vector3d exact =
+          spectralColour(scene, backdrop, camera.ray(i % kSize, i / kSize, kSize), bins);
+      squared += (pixel(image, i % kSize, i / kSize).head<3>() - exact).squaredNorm() / 3;
+      ++count;
+    }
+    EXPECT_LE(std::sqrt(squared / count), planned.plan.trial.bound) << name;
+    EXPECT_LE(planned.plan.trial.bound, budget);
+  }
+}
+
+}  // namespace
+}  // namespace raycaster
