@@ -32,6 +32,7 @@ class Writer:
         self.program, self.dialect = program, dialect
         self.random = random.Random(program.layout_seed)
         self.odd = program.layout_seed != 0
+        self.macros = program.layout_seed % 3 == 1
         self.tokens: list = []
 
     # ---- expressions --------------------------------------------------------------------------------------------
@@ -52,7 +53,11 @@ class Writer:
         """Its tokens and how strongly it binds."""
         k = e.kind
         if k == "lit":
+            if self.macros and e.type.base == "int" and e.data == 1 and self.random.random() < 0.4:
+                return ["ONE"], 15
             return number(e), 15
+        if k == "bin" and e.data == "+" and self.macros and self.random.random() < 0.2:
+            return ["ADD", "(", *self.kid(e.args[0], 1), ",", *self.kid(e.args[1], 1), ")"], 14
         if k == "var":
             return [e.data.name], 15
         if k == "implicit":
@@ -157,6 +162,9 @@ class Writer:
 
     def header(self) -> list[str]:
         lines = [self.dialect.line()]
+        if self.macros:
+            lines += ["#define ONE 1", "#define ADD(a, b) ((a) + \\", "                   (b))"] if self.dialect.version >= 420 \
+                else ["#define ONE 1", "#define ADD(a, b) ((a) + (b))"]
         if self.dialect.es:
             lines += ["precision highp float;", "precision highp int;"]
         return lines
