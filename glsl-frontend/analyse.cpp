@@ -7,6 +7,7 @@
 #include "glsl-frontend/analysed_text.h"
 #include "glsl-frontend/effects.h"
 #include "glsl-frontend/lexer.h"
+#include "glsl-frontend/link_objects.h"
 #include "glsl-frontend/shader.h"
 #include "glsl-frontend/skeleton.h"
 #include "glsl-frontend/syntax_tree.h"
@@ -37,19 +38,6 @@ TokenIndex firstDeclaration(const std::vector<Token>& tokens) {
   return static_cast<TokenIndex>(first);
 }
 
-// The facts of the first dialect that glslang takes; else those of the one that it got farthest with.
-SyntaxFacts askGlslang(Stage stage, const Preprocessed& preprocessed, bool es, const Skeleton& skeleton) {
-  SyntaxFacts best;
-  bool first = true;
-  for (const Dialect& dialect : dialects(stage, preprocessed, es)) {
-    SyntaxFacts facts = readSyntaxTree(stage, buildAnalysedText(preprocessed.tokens, skeleton, dialect));
-    if (facts.error.empty()) return facts;
-    if (first || facts.error_token > best.error_token) best = std::move(facts);
-    first = false;
-  }
-  return best;
-}
-
 std::string describe(const SyntaxFacts& facts, const std::vector<Token>& tokens) {
   std::string where;
   if (facts.error_token != kNone && !tokens.empty()) {
@@ -58,50 +46,121 @@ std::string describe(const SyntaxFacts& facts, const std::vector<Token>& tokens)
   return where + "glslang does not take this shader: " + facts.error;
 }
 
-Analysis analyseUnguarded(Stage stage, const std::vector<std::string>& strings,
+// What our own parser and glslang make of the same tokens.
+struct Readings {
+  Skeleton skeleton;
+  SyntaxFacts facts;
+  std::string error;
+};
+
+Readings readTokens(Stage stage, const Preprocessed& preprocessed, bool with_meanings) {
+  Readings readings;
+  readings.skeleton = parseSkeleton(stage, preprocessed.tokens);
+  if (!readings.skeleton.error.empty()) readings.skeleton.insertions.clear();
+  // The first dialect that glslang takes; else the message of the one that it got farthest with.
+  bool first = true;
+  for (const Dialect& dialect : dialects(stage, preprocessed, readings.skeleton)) {
+    SyntaxFacts facts = readSyntaxTree(
+        stage, buildAnalysedText(preprocessed.tokens, readings.skeleton, dialect), with_meanings);
+    const bool taken = facts.error.empty();
+    if (first || taken || facts.error_token > readings.facts.error_token) readings.facts = std::move(facts);
+    if (taken) break;
+    first = false;
+  }
+  readings.error =
+      readings.facts.error.empty() ? readings.skeleton.error : describe(readings.facts, preprocessed.tokens);
+  return readings;
+}
+
+// ---- several shader objects
+
+// The meanings of one object's tokens, by their index in the object.
+std::vector<Meaning> meaningsOf(int object, const LinkedObjects& linked, const SyntaxFacts& facts) {
+  std::vector<Meaning> result;
+  for (const Meaning& meaning : facts.meanings) {
+    const LinkedObjects::Origin& origin = linked.origins[static_cast<std::size_t>(meaning.token)];
+    if (origin.object == object) result.push_back({origin.token, meaning.operation, meaning.type});
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// Holds what each object's tokens mean by themselves against what they mean in the linked text: a name that
+// an object knows as a built-in function may be a function of another object there. Returns an error, or "".
+std::string compareMeanings(Stage stage, const std::vector<Preprocessed>& objects,
+                            const LinkedObjects& linked, const SyntaxFacts& together) {
+  std::vector<std::vector<bool>> kept(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) kept[i].resize(objects[i].tokens.size());
+  for (const LinkedObjects::Origin& origin : linked.origins) {
+    kept[static_cast<std::size_t>(origin.object)][static_cast<std::size_t>(origin.token)] = true;
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    Readings alone = readTokens(stage, objects[i], true);
+    if (!alone.error.empty()) return alone.error;
+    std::vector<Meaning>& expected = alone.facts.meanings;
+    std::erase_if(expected, [&](const Meaning& m) { return !kept[i][static_cast<std::size_t>(m.token)]; });
+    std::sort(expected.begin(), expected.end());
+    const std::vector<Meaning> found = meaningsOf(static_cast<int>(i), linked, together);
+    const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
+    if (a == expected.end() && b == found.end()) continue;
+    const TokenIndex at = a != expected.end() ? a->token : b->token;
+    const Token& token = objects[i].tokens[static_cast<std::size_t>(at)];
+    return "line " + std::to_string(token.place.line) + ": '" + token.text +
+           "' means something else once the shader objects of the stage are one text; the shader can be "
+           "shown, but not stepped through";
+  }
+  return "";
+}
+
+// ---- the whole
+
+Analysis analyseUnguarded(Stage stage, const std::vector<ShaderStrings>& objects,
                           const PreprocessorFacts& given) {
-  Analysis analysis;
-  Preprocessed preprocessed = preprocess(strings, given);
-  if (!preprocessed.error.empty()) {
-    analysis.error = preprocessed.error;
-    return analysis;
-  }
-  const bool versioned = std::any_of(preprocessed.tokens.begin(), preprocessed.tokens.end(),
-                                     [](const Token& token) { return isDirective(token, "#version"); });
-  const bool es = preprocessed.version == 100 || preprocessed.profile == "es" || (given.es && !versioned);
-
-  Skeleton skeleton = parseSkeleton(stage, preprocessed.tokens);
-  if (!skeleton.error.empty()) skeleton.insertions.clear();
-  const SyntaxFacts facts = askGlslang(stage, preprocessed, es, skeleton);
-  if (!facts.error.empty()) {
-    analysis.error = describe(facts, preprocessed.tokens);
-    return analysis;
-  }
-  if (!skeleton.error.empty()) {
-    analysis.error = skeleton.error;
-    return analysis;
-  }
-
   Shader shader;
   shader.stage = stage;
-  shader.version = preprocessed.version;
-  shader.profile = preprocessed.profile;
-  shader.strings = strings;
-  shader.tokens = std::move(preprocessed.tokens);
+  std::vector<Preprocessed> preprocessed;
+  for (const ShaderStrings& strings : objects) {
+    const int first_line = static_cast<int>(shader.lines.size()) + 1;
+    preprocessed.push_back(preprocess(strings, given, first_line));
+    if (!preprocessed.back().error.empty()) return {std::nullopt, preprocessed.back().error};
+    shader.object_lines.push_back(first_line);
+    std::string text;
+    for (const std::string& string : strings) text += string;
+    const std::vector<std::string> lines = splitLines(text);
+    shader.lines.insert(shader.lines.end(), lines.begin(), lines.end());
+  }
+  const bool several = objects.size() > 1;
+  LinkedObjects linked;
+  if (several) {
+    linked = linkObjects(preprocessed);
+    if (!linked.text.error.empty()) return {std::nullopt, linked.text.error};
+  }
+  Preprocessed& text = several ? linked.text : preprocessed.front();
+  Readings readings = readTokens(stage, text, several);
+  if (readings.error.empty() && several) {
+    readings.error = compareMeanings(stage, preprocessed, linked, readings.facts);
+  }
+  if (!readings.error.empty()) return {std::nullopt, readings.error};
+
+  shader.version = text.version;
+  shader.profile = text.profile;
+  shader.tokens = std::move(text.tokens);
   shader.first_declaration = firstDeclaration(shader.tokens);
-  std::string text;
-  for (const std::string& string : strings) text += string;
-  shader.lines = splitLines(text);
-  analysis.error = combine(std::move(skeleton), facts, shader);
-  if (analysis.error.empty()) analysis.shader = std::move(shader);
-  return analysis;
+  const std::string error = combine(std::move(readings.skeleton), readings.facts, shader);
+  if (!error.empty()) return {std::nullopt, error};
+  return {std::move(shader), ""};
 }
 
 }  // namespace
 
 Analysis analyse(Stage stage, const std::vector<std::string>& strings, const PreprocessorFacts& facts) {
+  return analyseLinked(stage, {strings}, facts);
+}
+
+Analysis analyseLinked(Stage stage, const std::vector<ShaderStrings>& objects,
+                       const PreprocessorFacts& facts) {
   try {
-    return analyseUnguarded(stage, strings, facts);
+    return analyseUnguarded(stage, objects, facts);
   } catch (const std::exception& error) {
     return {std::nullopt, std::string("the analysis failed, please report this shader: ") + error.what()};
   }

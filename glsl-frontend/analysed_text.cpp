@@ -1,7 +1,9 @@
 #include "glsl-frontend/analysed_text.h"
 
-#include <algorithm>
+#include <optional>
 #include <set>
+
+#include "glsl-frontend/later_names.h"
 
 namespace shadestep::frontend {
 
@@ -21,38 +23,24 @@ const std::set<std::string>& youngKeywords() {
   return kWords;
 }
 
-// Names of extensions whose functions are in GLSL 4.60 under another name.
-const std::map<std::string, std::string>& laterNames() {
-  static const std::map<std::string, std::string> kNames = {
-      {"atomicCounterAddARB", "atomicCounterAdd"},
-      {"atomicCounterSubtractARB", "atomicCounterSubtract"},
-      {"atomicCounterMinARB", "atomicCounterMin"},
-      {"atomicCounterMaxARB", "atomicCounterMax"},
-      {"atomicCounterAndARB", "atomicCounterAnd"},
-      {"atomicCounterOrARB", "atomicCounterOr"},
-      {"atomicCounterXorARB", "atomicCounterXor"},
-      {"atomicCounterExchangeARB", "atomicCounterExchange"},
-      {"atomicCounterCompSwapARB", "atomicCounterCompSwap"},
-      {"anyInvocationARB", "anyInvocation"},
-      {"allInvocationsARB", "allInvocations"},
-      {"allInvocationsEqualARB", "allInvocationsEqual"},
-      {"gl_InstanceIDARB", "gl_InstanceID"},
-      {"gl_BaseVertexARB", "gl_BaseVertex"},
-      {"gl_BaseInstanceARB", "gl_BaseInstance"},
-      {"gl_DrawIDARB", "gl_DrawID"}};
-  return kNames;
-}
-
 std::map<std::string, std::string> renamings(const std::vector<Token>& tokens, const Skeleton& skeleton) {
-  std::set<std::string> used;
+  std::set<std::string> used, declared;
   for (const Token& token : tokens) used.insert(token.text);
-  std::map<std::string, std::string> renamed = laterNames();
-  for (const std::string& name : skeleton.declared_names) {
-    if (youngKeywords().count(name) == 0 || renamed.count(name) > 0) continue;
-    std::string fresh = name + "_";
+  declared.insert(skeleton.declared_names.begin(), skeleton.declared_names.end());
+  std::map<std::string, std::string> renamed;
+  for (const auto& [name, later] : laterNames()) {
+    if (used.count(name) > 0 && declared.count(name) == 0) renamed[name] = later;
+  }
+  const auto rename = [&](const std::string& name, std::string fresh) {
     while (used.count(fresh) > 0) fresh += "0";
     used.insert(fresh);
     renamed[name] = fresh;
+  };
+  for (const std::string& name : declared) {
+    if (youngKeywords().count(name) > 0) rename(name, name + "_");
+  }
+  for (const auto& [name, type] : foreignVariables()) {
+    if (used.count(name) > 0) rename(name, "foreign_" + name.substr(3));
   }
   return renamed;
 }
@@ -61,22 +49,29 @@ class Builder {
  public:
   Builder(const std::vector<Token>& tokens, const Skeleton& skeleton, const Dialect& dialect)
       : tokens_(tokens), skeleton_(skeleton), dialect_(dialect) {
-    if (dialect.rename_keywords) renamed_ = renamings(tokens, skeleton);
+    if (!dialect.raised) return;
+    renamed_ = renamings(tokens, skeleton);
+    declared_.insert(skeleton.declared_names.begin(), skeleton.declared_names.end());
   }
 
   AnalysedText build() {
     add("#version " + dialect_.version, {});
+    result_.es = dialect_.version == "100" || dialect_.version.find("es") != std::string::npos;
     std::size_t insertion = 0;
+    bool directives = true;
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       const auto token = static_cast<TokenIndex>(i);
+      if (directives && tokens_[i].kind != TokenKind::directive) {
+        directives = false;
+        declareForeignVariables();
+      }
       for (; insertion < skeleton_.insertions.size() && skeleton_.insertions[insertion].before <= token;
            ++insertion) {
         const Insertion& inserted = skeleton_.insertions[insertion];
         add(inserted.mentions == kNone ? inserted.text : mention(inserted), {token, inserted.mentions});
       }
-      add(lineOf(tokens_[i]), {token, kNone});
+      addToken(token);
     }
-    result_.es = dialect_.version == "100" || dialect_.version.find("es") != std::string::npos;
     for (const auto& [users, ours] : renamed_) result_.renamed[ours] = users;
     return std::move(result_);
   }
@@ -88,11 +83,56 @@ class Builder {
     result_.lines.push_back(origin);
   }
 
+  void addToken(TokenIndex token) {
+    if (const std::optional<LaterCall> call = laterCallAt(token)) {
+      if (!call->result.empty()) {
+        add(call->result + "(", {});
+        result_closes_.insert(closingParenthesis(token + 1));
+      }
+      add(call->name, {token, kNone});
+    } else {
+      add(lineOf(token), {token, kNone});
+    }
+    if (result_closes_.erase(token) > 0) add(")", {});
+  }
+
+  std::optional<LaterCall> laterCallAt(TokenIndex token) const {
+    const auto i = static_cast<std::size_t>(token);
+    if (!dialect_.raised || i + 1 >= tokens_.size() || tokens_[i + 1].text != "(") return std::nullopt;
+    if (declared_.count(tokens_[i].text) > 0) return std::nullopt;
+    return laterCall(tokens_[i].text);
+  }
+
+  TokenIndex closingParenthesis(TokenIndex open) const {
+    int depth = 0;
+    for (auto i = static_cast<std::size_t>(open); i < tokens_.size(); ++i) {
+      if (tokens_[i].text == "(") ++depth;
+      if (tokens_[i].text == ")" && --depth == 0) return static_cast<TokenIndex>(i);
+    }
+    return kNone;
+  }
+
+  // Those that the shader does not declare itself.
+  void declareForeignVariables() {
+    for (const auto& [name, type] : foreignVariables()) {
+      const auto found = renamed_.find(name);
+      if (found == renamed_.end() || declared_.count(name) > 0) continue;
+      add((result_.es ? "highp " : "") + type.first + " " + found->second + type.second + ";", {});
+    }
+  }
+
   std::string mention(const Insertion& inserted) const {
     return named(skeleton_.variables[static_cast<std::size_t>(inserted.mentions)].name) + ";";
   }
 
-  std::string lineOf(const Token& token) const {
+  std::string lineOf(TokenIndex index) const {
+    if (dialect_.relaxed) {
+      const auto relaxed = skeleton_.relaxed_as.find(index);
+      if (relaxed != skeleton_.relaxed_as.end()) return relaxed->second;
+    }
+    const auto replaced = skeleton_.analysed_as.find(index);
+    if (replaced != skeleton_.analysed_as.end()) return replaced->second;
+    const Token& token = tokens_[static_cast<std::size_t>(index)];
     if (token.kind == TokenKind::identifier) return named(token.text);
     if (token.kind != TokenKind::directive) return token.text;
     const bool extension = token.text.rfind("#extension", 0) == 0;
@@ -108,26 +148,29 @@ class Builder {
   const Skeleton& skeleton_;
   const Dialect& dialect_;
   std::map<std::string, std::string> renamed_;
+  std::set<std::string> declared_;
+  std::set<TokenIndex> result_closes_;  // parentheses after which a constructor closes that we opened
   AnalysedText result_;
 };
 
 }  // namespace
 
-std::vector<Dialect> dialects(Stage stage, const Preprocessed& preprocessed, bool es) {
-  const std::string number = std::to_string(preprocessed.version);
+std::vector<Dialect> dialects(Stage stage, const Preprocessed& preprocessed, const Skeleton& skeleton) {
+  const bool es = preprocessed.version == 100 || preprocessed.profile == "es";
+  const std::string own =
+      std::to_string(preprocessed.version) + (preprocessed.profile.empty() ? "" : " " + preprocessed.profile);
+  const bool can_relax = !skeleton.relaxed_as.empty();
   std::vector<Dialect> result;
   // glslang prints to stdout where a version lacks the stage altogether.
   const bool has_stage = stage != Stage::compute || preprocessed.version >= (es ? 310 : 430);
   if (has_stage) {
-    result.push_back(
-        {number + (preprocessed.profile.empty() ? "" : " " + preprocessed.profile), true, false});
+    result.push_back({own, true, false, false});
+    if (can_relax) result.push_back({own, true, false, true});
   }
-  if (es) {
-    result.push_back({"320 es", false, true});
-  } else {
-    result.push_back({"460 compatibility", true, true});
-    result.push_back({"460 compatibility", false, true});
-  }
+  if (es) result.push_back({"320 es", false, true, false});
+  if (!es) result.push_back({"460 compatibility", true, true, false});
+  result.push_back({"460 compatibility", false, true, false});
+  if (can_relax) result.push_back({"460 compatibility", false, true, true});
   return result;
 }
 

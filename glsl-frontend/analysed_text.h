@@ -28,11 +28,13 @@ struct AnalysedText {
 // own version resolves overloads exactly as that version says. A dialect that glslang lacks gets an entry
 // here.
 struct Dialect {
-  std::string version;           // what follows #version
-  bool keep_extensions = true;   // false: drop #extension lines, the raised version has it all
-  bool rename_keywords = false;  // the shader's names that the raised version took as keywords
+  std::string version;          // what follows #version
+  bool keep_extensions = true;  // false: drop #extension lines, the raised version has it all
+  bool raised = false;   // not the shader's own version: names of other versions and extensions are put
+                         // into this one's words
+  bool relaxed = false;  // without what glslang may be too strict about (Skeleton::relaxed_as)
 };
-std::vector<Dialect> dialects(Stage stage, const Preprocessed& preprocessed, bool es);
+std::vector<Dialect> dialects(Stage stage, const Preprocessed& preprocessed, const Skeleton& skeleton);
 
 AnalysedText buildAnalysedText(const std::vector<Token>& tokens, const Skeleton& skeleton,
                                const Dialect& dialect);

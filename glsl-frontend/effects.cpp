@@ -186,19 +186,25 @@ class Combiner {
   // ---- side effects
   // -----------------------------------------------------------------------------------------------
 
-  // What a call changes outside of the function: its own writes and those of all functions that it calls.
+  // What a call changes outside of the function: its own writes and those of all functions that it calls; of
+  // a subroutine uniform, those of all that it may stand for.
   void functionEffects() {
     std::vector<std::vector<FunctionId>> callees(shader_.functions.size());
     for (const Call& call : shader_.calls) {
       if (call.caller != kNone) at(callees, call.caller).push_back(call.callee);
     }
-    for (std::size_t i = 0; i < shader_.functions.size(); ++i) ownEffects(shader_.functions[i]);
+    for (std::size_t i = 0; i < shader_.functions.size(); ++i) {
+      ownEffects(shader_.functions[i]);
+      const std::vector<FunctionId>& candidates = shader_.functions[i].candidates;
+      callees[i].insert(callees[i].end(), candidates.begin(), candidates.end());
+    }
     std::vector<bool> done(shader_.functions.size(), false);
     for (std::size_t i = 0; i < shader_.functions.size(); ++i)
       inheritEffects(static_cast<FunctionId>(i), callees, done);
   }
 
   void ownEffects(Function& function) {
+    if (function.body == kNone && !function.candidates.empty()) return;
     if (function.body == kNone) {
       for (std::size_t i = 0; i < shader_.variables.size(); ++i) {
         if (isChangeableFromElsewhere(shader_.variables[i]))
@@ -310,38 +316,24 @@ class Combiner {
   // -------------------------------------------------------------------------------------------------------
 
   void fillScopes() {
-    // Variables of one name get one number: an inner one hides the outer ones.
+    auto chain = std::make_shared<ScopeChain>();
     std::unordered_map<std::string, int> numbers;
-    for (const Variable& variable : shader_.variables) {
-      name_numbers_.push_back(
-          numbers.try_emplace(variable.name, static_cast<int>(numbers.size())).first->second);
+    const auto numberOf = [&](VariableId id) {
+      return numbers.try_emplace(at(shader_.variables, id).name, static_cast<int>(numbers.size()))
+          .first->second;
+    };
+    for (const VisibleVariable& step : skeleton_.visible) {
+      const VariableId named = step.variable != kNone ? step.variable : step.hides;
+      chain->links.push_back({step.variable, numberOf(named), step.outer});
     }
-    seen_.assign(numbers.size(), kNone);
+    chain->names = static_cast<int>(numbers.size());
+    for (const Variable& variable : shader_.variables) chain->shown.push_back(isShown(variable));
     for (VariableId id : skeleton_.builtins) {
-      if (isShown(at(shader_.variables, id))) builtins_.push_back(id);
+      if (isShown(at(shader_.variables, id))) chain->builtins.push_back(id);
     }
     for (std::size_t i = 0; i < shader_.statements.size(); ++i) {
-      const int visible = skeleton_.statement_visible[i];
-      const bool as_before = i > 0 && visible == skeleton_.statement_visible[i - 1];
-      shader_.statements[i].scope =
-          as_before ? shader_.statements[i - 1].scope : scopeOf(visible, static_cast<int>(i));
+      shader_.statements[i].scope = Scope(chain, skeleton_.statement_visible[i]);
     }
-  }
-
-  std::vector<VariableId> scopeOf(int visible, int stamp) {
-    std::vector<VariableId> scope;
-    for (; visible != kNone; visible = at(skeleton_.visible, visible).outer) {
-      const VisibleVariable& step = at(skeleton_.visible, visible);
-      const VariableId named = step.variable != kNone ? step.variable : step.hides;
-      int& seen = at(seen_, at(name_numbers_, named));
-      if (seen == stamp) continue;
-      seen = stamp;
-      if (step.variable != kNone && isShown(at(shader_.variables, step.variable)))
-        scope.push_back(step.variable);
-    }
-    scope.insert(scope.end(), builtins_.rbegin(), builtins_.rend());
-    std::reverse(scope.begin(), scope.end());
-    return scope;
   }
 
   bool isShown(const Variable& variable) const {
@@ -388,10 +380,7 @@ class Combiner {
   Skeleton& skeleton_;
   const SyntaxFacts& facts_;
   Shader& shader_;
-  std::vector<Access> accesses_;   // by token
-  std::vector<int> name_numbers_;  // per variable
-  std::vector<int> seen_;          // per name: the last statement that it was seen for
-  std::vector<VariableId> builtins_;
+  std::vector<Access> accesses_;  // by token
 };
 
 }  // namespace

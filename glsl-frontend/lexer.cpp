@@ -45,7 +45,9 @@ struct CleanText {
 // Reads characters of the text one by one; line ends come as '\n', continued lines come joined.
 class Reader {
  public:
-  explicit Reader(std::string_view text) : text_(text) { skipContinuations(); }
+  explicit Reader(std::string_view text, int first_line) : text_(text), line_(first_line) {
+    skipContinuations();
+  }
 
   bool atEnd() const { return at_ >= text_.size(); }
   char current() const { return atEnd() ? '\0' : lineEndLength(text_, at_) ? '\n' : text_[at_]; }
@@ -81,7 +83,7 @@ class Reader {
   std::string_view text_;
   std::size_t at_ = 0;
   std::size_t line_start_ = 0;
-  int line_ = 1;
+  int line_;
 };
 
 void skipLineComment(Reader& reader) {
@@ -102,11 +104,11 @@ bool skipBlockComment(Reader& reader) {
   return false;
 }
 
-CleanText clean(std::string_view text, Place* unclosed_comment) {
+CleanText clean(std::string_view text, Place* unclosed_comment, int first_line) {
   CleanText out;
   out.chars.reserve(text.size());
   out.places.reserve(text.size());
-  Reader reader(text);
+  Reader reader(text, first_line);
   while (!reader.atEnd()) {
     const Place place = reader.place();
     const char c = reader.current();
@@ -178,8 +180,8 @@ std::size_t tokenEnd(std::string_view text, std::size_t at, TokenKind& kind) {
 
 }  // namespace
 
-std::vector<LexedLine> lex(std::string_view text, Place* unclosed_comment) {
-  const CleanText clean_text = clean(text, unclosed_comment);
+std::vector<LexedLine> lex(std::string_view text, Place* unclosed_comment, int first_line) {
+  const CleanText clean_text = clean(text, unclosed_comment, first_line);
   const std::string_view chars = clean_text.chars;
   std::vector<LexedLine> lines(1);
   bool space = false;

@@ -22,8 +22,9 @@ struct LexedLine {
 };
 
 // All strings of a shader, joined. Line ends may be LF, CR, CRLF or LFCR (GLSL 4.60, 3.1). `unclosed_comment`
-// gets the place of a block comment that is never closed, if there is one.
-std::vector<LexedLine> lex(std::string_view text, Place* unclosed_comment = nullptr);
+// gets the place of a block comment that is never closed, if there is one. Lines are numbered from
+// `first_line`.
+std::vector<LexedLine> lex(std::string_view text, Place* unclosed_comment = nullptr, int first_line = 1);
 
 // The text cut into physical lines, numbered as Place::line numbers them.
 std::vector<std::string> splitLines(std::string_view text);

@@ -24,7 +24,8 @@ struct Conditional {
 
 class Preprocessor {
  public:
-  Preprocessor(const PreprocessorFacts& facts, Preprocessed& result) : result_(result) {
+  Preprocessor(const PreprocessorFacts& facts, int first_line, Preprocessed& result) : result_(result) {
+    macros_.setLine(first_line - 1, 1);
     for (const std::string& extension : facts.extensions) macros_.defineNumber(extension, 1);
     setVersion(facts.es ? 100 : 110, facts.es ? "es" : "");
     if (facts.es) result_.profile = "";
@@ -226,15 +227,16 @@ class Preprocessor {
 
 }  // namespace
 
-Preprocessed preprocess(const std::vector<std::string>& strings, const PreprocessorFacts& facts) {
+Preprocessed preprocess(const std::vector<std::string>& strings, const PreprocessorFacts& facts,
+                        int first_line) {
   std::string text;
   for (const std::string& string : strings) text += string;
   Preprocessed result;
   try {
     Place unclosed;
-    const std::vector<LexedLine> lines = lex(text, &unclosed);
+    const std::vector<LexedLine> lines = lex(text, &unclosed, first_line);
     if (unclosed.line > 0) throw PreprocessError{unclosed, "this comment is not closed"};
-    Preprocessor(facts, result).run(lines);
+    Preprocessor(facts, first_line, result).run(lines);
   } catch (const PreprocessError& error) {
     result.error = "line " + std::to_string(error.place.line) + ": " + error.message;
   }

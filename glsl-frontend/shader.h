@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "glsl-frontend/scope.h"
 #include "glsl-frontend/tokens.h"
 #include "glsl-frontend/types.h"
 
@@ -84,7 +85,7 @@ struct Statement {
   TokenRange type_tokens;            // declaration: qualifiers and type specifier, before the first name
   std::vector<Declarator> declarators;
 
-  std::vector<VariableId> scope;     // visible before the statement, innermost last, user's variables only
+  Scope scope;                       // visible before the statement, innermost last, user's variables only
                                      // (locals, parameters, globals; interface variables that are used)
   std::vector<VariableId> changes;   // what running it may change; for if/loops/switch: what evaluating the
                                      // *condition* may change (children have their own)
@@ -114,6 +115,7 @@ struct Function {
   TokenIndex name_token = kNone;        // in the definition
   std::vector<TokenRange> prototypes;   // whole prototypes, with ';'
   StatementId body = kNone;             // a block; kNone if it is only declared
+  std::vector<FunctionId> candidates;   // of a subroutine uniform: what a call of it may run
   bool is_main = false;
   bool may_discard = false;
   std::vector<VariableId> changes;      // variables outside it that a call may change
@@ -135,7 +137,6 @@ struct Shader {
   Stage stage = Stage::fragment;
   int version = 110;
   std::string profile;
-  std::vector<std::string> strings;     // the user's text
   std::vector<Token> tokens;
   std::vector<Variable> variables;
   std::vector<Statement> statements;    // in token order: a parent before its children
@@ -149,6 +150,7 @@ struct Shader {
   // #version of the shader stands before it.
   TokenIndex first_declaration = 0;
   std::vector<std::string> lines;       // the user's text by lines, as numbered by Place::line
+  std::vector<int> object_lines;        // per shader object that the stage is linked from: its first line
 };
 
 struct Analysis {
@@ -158,6 +160,13 @@ struct Analysis {
 
 // Preprocesses, tokenizes, parses and analyses one shader. Never throws; never prints.
 Analysis analyse(Stage stage, const std::vector<std::string>& strings, const PreprocessorFacts& facts);
+
+// The same for a stage that is linked from several shader objects, in the order in which they are attached: the
+// shader has the tokens of all of them as one text (link_objects.h says how, and when that is refused), and
+// lines count on from object to object.
+using ShaderStrings = std::vector<std::string>;
+Analysis analyseLinked(Stage stage, const std::vector<ShaderStrings>& objects,
+                       const PreprocessorFacts& facts);
 
 // The innermost statements that can be stopped at on a line (and column, if given > 0), in token order.
 // Blocks and case labels are no places to stop at.

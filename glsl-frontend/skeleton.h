@@ -3,11 +3,15 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "glsl-frontend/shader.h"
 
 namespace shadestep::frontend {
+
+// The size that glslang gets to see where it could not compute the driver's.
+inline constexpr int kUnknownSize = 65521;
 
 // One step of a chain from the innermost declared variable outwards: what is visible at a place.
 struct VisibleVariable {
@@ -43,10 +47,12 @@ struct Skeleton {
   std::vector<CallSite> call_sites;          // in order of their closing parentheses
   std::vector<VariableId> resolved;          // per token: the variable that the identifier names, or kNone
   std::vector<VisibleVariable> visible;
-  std::vector<int> statement_visible;       // per statement: index into `visible`, or kNone
-  std::vector<VariableId> builtins;         // gl_... variables that the text names
-  std::vector<Insertion> insertions;        // in order of `before`
-  std::vector<std::string> declared_names;  // of variables, functions, structs, members
+  std::vector<int> statement_visible;  // per statement: index into `visible`, or kNone
+  std::vector<VariableId> builtins;    // gl_... variables that the text names
+  std::vector<Insertion> insertions;   // in order of `before`
+  // What glslang gets to see in place of single tokens: in any case, and where it is too strict otherwise.
+  std::unordered_map<TokenIndex, std::string> analysed_as, relaxed_as;
+  std::vector<std::string> declared_names;  // of variables, functions, structs, members; gl_... redeclared
   std::string error;                        // empty, or one sentence with the line
 };
 

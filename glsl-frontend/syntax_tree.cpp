@@ -78,7 +78,8 @@ class TypeReader {
     if (const glslang::TArraySizes* sizes = type.getArraySizes()) {
       for (int i = 0; i < sizes->getNumDims(); ++i) {
         const int size = sizes->getDimSize(i);
-        result.array.push_back(size == glslang::UnsizedArraySize ? sizeByUse(type) : size);
+        const bool unsized = size == glslang::UnsizedArraySize;
+        result.array.push_back(unsized ? sizeByUse(type) : size == kUnknownSize ? 0 : size);
       }
     }
     return result;
@@ -202,8 +203,8 @@ bool storesToMemory(glslang::TOperator op) {
 
 class TreeReader {
  public:
-  TreeReader(Stage stage, const AnalysedText& text, SyntaxFacts& facts)
-      : text_(text), facts_(facts), types_(stage, text.renamed) {}
+  TreeReader(Stage stage, const AnalysedText& text, bool with_meanings, SyntaxFacts& facts)
+      : text_(text), with_meanings_(with_meanings), facts_(facts), types_(stage, text.renamed) {}
 
   void readRoot(TIntermNode* root) {
     glslang::TIntermAggregate* sequence = root ? root->getAsAggregate() : nullptr;
@@ -265,6 +266,7 @@ class TreeReader {
 
   void read(TIntermNode* node) {
     if (!node || isMention(*node)) return;
+    if (with_meanings_) noteMeaning(*node);
     if (glslang::TIntermSymbol* symbol = node->getAsSymbolNode()) {
       access(*symbol, symbol->getType(), true, false);
     } else if (glslang::TIntermBinary* binary = node->getAsBinaryNode()) {
@@ -281,6 +283,18 @@ class TreeReader {
     } else {
       readStatement(*node);
     }
+  }
+
+  void noteMeaning(TIntermNode& node) {
+    const glslang::TIntermTyped* typed = node.getAsTyped();
+    const TokenIndex token = originOf(node).token;
+    if (!typed || token == kNone) return;
+    const glslang::TIntermOperator* operation = node.getAsOperator();
+    const glslang::TIntermAggregate* aggregate = node.getAsAggregate();
+    Type type = types_.read(typed->getType());
+    type.array.clear();
+    const std::string callee = aggregate ? aggregate->getName().c_str() : "";
+    facts_.meanings.push_back({token, operation ? operation->getOp() : 0, callee + " " + glslName(type)});
   }
 
   bool isMention(TIntermNode& node) {
@@ -387,6 +401,7 @@ class TreeReader {
   }
 
   const AnalysedText& text_;
+  bool with_meanings_;
   SyntaxFacts& facts_;
   TypeReader types_;
 };
@@ -414,7 +429,7 @@ void readError(const char* log, const AnalysedText& text, SyntaxFacts& facts) {
 
 }  // namespace
 
-SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text) {
+SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text, bool with_meanings) {
   initializeOnce();
   SyntaxFacts facts;
   glslang::TShader shader(languageOf(stage));
@@ -428,7 +443,7 @@ SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text) {
     return facts;
   }
   facts.early_fragment_tests = shader.getIntermediate()->getEarlyFragmentTests();
-  TreeReader(stage, text, facts).readRoot(shader.getIntermediate()->getTreeRoot());
+  TreeReader(stage, text, with_meanings, facts).readRoot(shader.getIntermediate()->getTreeRoot());
   return facts;
 }
 

@@ -35,6 +35,14 @@ struct UserFunction {
   Type return_type;
 };
 
+// What the expression at a token does, for comparing two analyses of the same tokens.
+struct Meaning {
+  TokenIndex token = kNone;
+  int operation = 0;  // glslang's
+  std::string type;   // of the result, arrays aside; of a call, the function too
+  auto operator<=>(const Meaning&) const = default;
+};
+
 struct SyntaxFacts {
   std::vector<VariableAccess> accesses;
   std::vector<UserCall> calls;
@@ -42,6 +50,7 @@ struct SyntaxFacts {
   std::map<VariableId, Type> mentioned;   // types of locals and parameters
   std::map<std::string, Type> globals;    // types of globals and of nameless blocks' members
   std::set<std::string> unreadable;       // of those, the ones that are `writeonly` as a whole or in part
+  std::vector<Meaning> meanings;          // if they were asked for
   bool uses_derivatives = false;
   bool writes_memory = false;  // through built-in functions; buffer variables are in `accesses`
   bool early_fragment_tests = false;
@@ -50,6 +59,6 @@ struct SyntaxFacts {
 };
 
 // Parses with glslang. Thread-safe; prints nothing.
-SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text);
+SyntaxFacts readSyntaxTree(Stage stage, const AnalysedText& text, bool with_meanings = false);
 
 }  // namespace shadestep::frontend

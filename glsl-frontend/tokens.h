@@ -9,7 +9,8 @@
 namespace shadestep::frontend {
 
 // A place in the user's own text. Lines and columns count from 1, columns in bytes. `line` is the physical line
-// over all strings of glShaderSource joined (the number that `shadestep source` prints), not what #line says.
+// over all strings of glShaderSource joined, and over all shader objects of the stage (the number that
+// `shadestep source` prints), not what #line says.
 struct Place {
   int line = 0;
   int column = 0;
@@ -49,8 +50,9 @@ struct Preprocessed {
 };
 
 // Runs the GLSL preprocessor over the strings of one shader, joined. Directives that the driver must see
-// stay as directive tokens; all others are carried out.
-Preprocessed preprocess(const std::vector<std::string>& strings, const PreprocessorFacts& facts);
+// stay as directive tokens; all others are carried out. Places count lines from `first_line`, __LINE__ from 1.
+Preprocessed preprocess(const std::vector<std::string>& strings, const PreprocessorFacts& facts,
+                        int first_line = 1);
 
 // The tokens as text that a GLSL compiler reads: directives on lines of their own, the rest separated by one
 // blank, or by a line break where the user's text had one. Re-tokenizing gives the same tokens.

@@ -131,7 +131,8 @@ class Validator {
     const Function& f = shader_.functions[static_cast<std::size_t>(id)];
     require(!f.signature.empty(), "function '" + f.name + "' has no signature");
     if (f.body == kNone) {
-      require(!f.prototypes.empty(), "function '" + f.name + "' is neither declared nor defined");
+      require(!f.prototypes.empty() || !f.candidates.empty(),
+              "function '" + f.name + "' is neither declared nor defined");
       return;
     }
     const bool body =

@@ -82,7 +82,7 @@ TEST(Scopes, AnInnerNameHidesTheOuterOne) {
   EXPECT_EQ(glslName(variable(shader, inner.scope[0]).type), "int");
   const Statement& outer = statement(shader, "x = 3.0");
   EXPECT_EQ(glslName(variable(shader, outer.scope[0]).type), "float");
-  EXPECT_EQ(outer.changes, outer.scope);
+  EXPECT_EQ(outer.changes, outer.scope.variables());
   EXPECT_NE(inner.changes, outer.changes);
 }
 

@@ -50,12 +50,15 @@ TEST(Validator, FindsEachBrokenInvariant) {
   });
   expectComplaint("and its calls disagree", [](Shader& s) { s.calls[0].statement = 0; });
   expectComplaint("sees two variables", [](Shader& s) {
-    std::vector<VariableId>& scope = mutableStatement(s, "x +=").scope;
+    std::vector<VariableId> scope = mutableStatement(s, "x +=").scope;
     scope.push_back(scope.back());
+    mutableStatement(s, "x +=").scope = scope;
   });
   expectComplaint("before it is declared", [](Shader& s) {
     const VariableId x = mutableStatement(s, "float x").declarators[0].variable;
-    mutableStatement(s, "float x").scope.push_back(x);
+    std::vector<VariableId> scope = mutableStatement(s, "float x").scope;
+    scope.push_back(x);
+    mutableStatement(s, "float x").scope = scope;
   });
   expectComplaint("holds no value", [](Shader& s) {
     s.variables[static_cast<std::size_t>(mutableStatement(s, "x +=").scope.back())].type = Type();
