@@ -105,9 +105,10 @@ std::string compareMeanings(Stage stage, const std::vector<Preprocessed>& object
     if (a == expected.end() && b == found.end()) continue;
     const TokenIndex at = a != expected.end() ? a->token : b->token;
     const Token& token = objects[i].tokens[static_cast<std::size_t>(at)];
-    return "line " + std::to_string(token.place.line) + ": '" + token.text +
-           "' means something else once the shader objects of the stage are one text; the shader can be "
-           "shown, but not stepped through";
+    return "line " + std::to_string(token.place.line) + ": what stands at '" + token.text +
+           "' would mean something else if the shader objects of the stage were one text (another object "
+           "redefines a built-in function or overloads one); the shader can be shown, but not stepped "
+           "through";
   }
   return "";
 }

@@ -15,7 +15,7 @@ TokenRange Parser::expression(std::initializer_list<std::string_view> ends) {
     const std::string& t = text();
     if (open.empty() && std::find(ends.begin(), ends.end(), t) != ends.end()) break;
     if (t == "(" || t == "[" || t == "{") {
-      OpenBracket bracket{kNone, at_ + 1, kNone, current()};
+      OpenBracket bracket{kNone, at_ + 1, kNone, current(), true};
       if (t == "(") bracket.call = callOpenedHere(start);
       if (t == "[" && at_ > start && subroutine_arrays_.count(text(-1)) > 0) bracket.subroutines = previous();
       open.push_back(bracket);
@@ -24,12 +24,7 @@ TokenRange Parser::expression(std::initializer_list<std::string_view> ends) {
       const OpenBracket closed = open.back();
       open.pop_back();
       if (closed.call != kNone) closeCall(closed);
-      if (closed.subroutines != kNone && is("(", 1)) {  // name[i](x)
-        const TokenIndex close_bracket = current();
-        ++at_;
-        indexedSubroutineCall(closed.token, close_bracket);
-        open.push_back({newCall(closed.subroutines), at_ + 1, kNone, current()});
-      }
+      if (closed.subroutines != kNone) closeSubroutineIndex(closed, open);
     } else if (t == "," && !open.empty() && open.back().call != kNone) {
       closeArgument(open.back());
       open.back().argument_start = at_ + 1;

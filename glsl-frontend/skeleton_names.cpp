@@ -29,7 +29,7 @@ VariableId Parser::newVariable(const std::string& name, Storage storage, TokenIn
   variable.storage = storage;
   variable.declared = declared;
   out_.variables.push_back(std::move(variable));
-  out_.declared_names.push_back(name);
+  if (declared != kNone) out_.declared_names.push_back(name);
   const VariableId id = static_cast<VariableId>(out_.variables.size()) - 1;
   if (declared != kNone) out_.resolved[static_cast<std::size_t>(declared)] = id;
   return id;

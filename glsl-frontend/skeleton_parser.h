@@ -142,6 +142,7 @@ class Parser {
     Position argument_start = 0;
     TokenIndex subroutines = kNone;  // for a '[': the name of the array of subroutine uniforms before it
     TokenIndex token = kNone;
+    bool first_index = true;
   };
   TokenRange expression(std::initializer_list<std::string_view> ends);
   TokenRange range(Position first, Position last) const;
@@ -195,7 +196,7 @@ class Parser {
   void subroutineUniforms(const DeclarationHead& head, Position start);
   void newSubroutineUniform(const std::string& name, const std::string& type_name, const SubroutineType& type,
                             bool array);
-  void indexedSubroutineCall(TokenIndex open_bracket, TokenIndex close_bracket);
+  void closeSubroutineIndex(const OpenBracket& bracket, std::vector<OpenBracket>& open);
   void findCandidates();
   std::string textOf(const TokenRange& tokens) const;
   void layoutIds();

@@ -50,11 +50,14 @@ void Parser::subroutineUniforms(const DeclarationHead& head, Position start) {
     const TokenIndex name = current();
     ++at_;
     const Position dimensions = at_;
-    arrayDimensions();
-    const bool array = at_ > dimensions;
+    std::string parameters = type->second.count > 0 ? type->second.parameters : "";
+    bool array = false;
+    for (; accept("["); expect("]")) {
+      expression({"]"});
+      array = true;
+      parameters = "int" + (parameters.empty() ? "" : "," + parameters);
+    }
     hideFromGlslang(range(dimensions, at_ - 1));
-    const std::string& own = type->second.parameters;
-    const std::string parameters = array ? "int" + (type->second.count > 0 ? "," + own : "") : own;
     out_.analysed_as[name] = tokens_[static_cast<std::size_t>(name)].text + "(" + parameters + ")";
     if (is(",")) out_.analysed_as[current()] = ";" + result;
     newSubroutineUniform(tokens_[static_cast<std::size_t>(name)].text, type_name, type->second, array);
@@ -73,11 +76,19 @@ void Parser::newSubroutineUniform(const std::string& name, const std::string& ty
   subroutine_uniforms_.emplace_back(id, type_name);
 }
 
-// name[i](x) is name(i, x) for glslang. At the '(' after the ']'.
-void Parser::indexedSubroutineCall(TokenIndex open_bracket, TokenIndex close_bracket) {
-  out_.analysed_as[open_bracket] = "(";
-  out_.analysed_as[close_bracket] = "";
-  out_.analysed_as[current()] = is(")", 1) ? "" : ",";
+// name[i][j](x) is name(i, j, x) for glslang. At a ']' that has closed `bracket`.
+void Parser::closeSubroutineIndex(const OpenBracket& bracket, std::vector<OpenBracket>& open) {
+  out_.analysed_as[bracket.token] = bracket.first_index ? "(" : ",";
+  out_.analysed_as[current()] = "";
+  if (!is("(", 1) && !is("[", 1)) return;
+  ++at_;
+  OpenBracket next{kNone, at_ + 1, bracket.subroutines, current(), false};
+  if (is("(")) {
+    out_.analysed_as[current()] = is(")", 1) ? "" : ",";
+    next.call = newCall(bracket.subroutines);
+    next.subroutines = kNone;
+  }
+  open.push_back(next);
 }
 
 void Parser::findCandidates() {

@@ -39,12 +39,15 @@ DrawFacts unpack(const wire::DrawT& draw) {
   facts.extensions = draw.extensions;
   facts.program = draw.program;
   facts.program_reason = draw.program_reason;
-  for (const auto& stage : draw.stages) {
-    StageFacts one;
-    one.stage = static_cast<Stage>(stage->stage);
-    for (const auto& source : stage->sources) one.sources.push_back(source->text);
-    one.reason = stage->reason;
-    facts.stages.push_back(std::move(one));
+  for (const auto& object : draw.stages) {
+    const Stage stage = static_cast<Stage>(object->stage);
+    const auto known = std::find_if(facts.stages.begin(), facts.stages.end(),
+                                    [stage](const StageFacts& one) { return one.stage == stage; });
+    StageFacts& one = known != facts.stages.end() ? *known : facts.stages.emplace_back();
+    one.stage = stage;
+    if (one.reason.empty()) one.reason = object->reason;
+    one.objects.emplace_back();
+    for (const auto& source : object->sources) one.objects.back().push_back(source->text);
   }
   facts.framebuffer = draw.framebuffer;
   facts.target_reason = draw.target_reason;
@@ -238,7 +241,7 @@ const frontend::Shader& Session::shader(Stage stage) {
     frontend::PreprocessorFacts driver;
     driver.extensions = draw.extensions;
     driver.es = draw.es;
-    frontend::Analysis analysis = frontend::analyse(stage, one.sources, driver);
+    frontend::Analysis analysis = frontend::analyseLinked(stage, one.objects, driver);
     if (!analysis.shader) {
       throw Error(Outcome::cannot_debug,
                   "the " + std::string(stageName(stage)) + " shader cannot be analysed: " + analysis.error);

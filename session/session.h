@@ -54,8 +54,8 @@ struct DrawStop {
 
 struct StageFacts {
   Stage stage = Stage::fragment;
-  std::vector<std::string> sources;
-  std::string reason;  // why it cannot be debugged; empty if it can
+  std::vector<frontend::ShaderStrings> objects;  // the shader objects that it is linked from
+  std::string reason;                            // why it cannot be debugged; empty if it can
 };
 
 struct DrawFacts {

@@ -13,7 +13,9 @@ std::string fragmentText(const DrawFacts& facts) {
   std::string text;
   for (const StageFacts& stage : facts.stages) {
     if (stage.stage != Stage::fragment) continue;
-    for (const std::string& source : stage.sources) text += source;
+    for (const frontend::ShaderStrings& object : stage.objects) {
+      for (const std::string& string : object) text += string;
+    }
   }
   return text;
 }

@@ -12,23 +12,31 @@ struct Options {
   std::string frames;
 };
 
+std::string joined(const frontend::ShaderStrings& strings) {
+  std::string text;
+  for (const std::string& string : strings) text += string;
+  return text;
+}
+
 // FNV-1a over the strings: tells sources apart, no more.
-std::string hashOf(const std::vector<std::string>& strings) {
+std::string hashOf(const std::vector<frontend::ShaderStrings>& objects) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::string& text : strings) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  for (const frontend::ShaderStrings& object : objects) {
+    for (const char c : joined(object)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   }
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;
 }
 
-std::size_t linesOf(const std::vector<std::string>& strings) {
+std::size_t linesOf(const std::vector<frontend::ShaderStrings>& objects) {
   std::size_t lines = 0;
-  std::string joined;
-  for (const std::string& text : strings) joined += text;
-  for (const char c : joined) lines += c == '\n' ? 1 : 0;
-  return lines + (joined.empty() || joined.back() == '\n' ? 0 : 1);
+  for (const frontend::ShaderStrings& object : objects) {
+    const std::string text = joined(object);
+    for (const char c : text) lines += c == '\n' ? 1 : 0;
+    lines += text.empty() || text.back() == '\n' ? 0 : 1;
+  }
+  return lines;
 }
 
 // Why this stage cannot be debugged; empty if it can.
@@ -61,8 +69,8 @@ Json describeDraw(session::Session& session, const session::DrawStop& stop) {
     Json one;
     one["debuggable"] = reason.empty();
     one["reason"] = reason.empty() ? Json(nullptr) : Json(reason);
-    one["lines"] = linesOf(stage.sources);
-    one["hash"] = hashOf(stage.sources);
+    one["lines"] = linesOf(stage.objects);
+    one["hash"] = hashOf(stage.objects);
     stages[session::stageName(stage.stage)] = std::move(one);
   }
   draw["stages"] = std::move(stages);

@@ -66,11 +66,18 @@ int run(const Common& common) {
     document["stage"] = common.stage;
     document["version"] = shader.version;
     document["lines"] = shader.lines;
+    document["objects"] = shader.object_lines;
     document["sites"] = std::move(sites);
     print(document);
     return 0;
   }
+  std::size_t object = 0;
   for (std::size_t i = 0; i < shader.lines.size(); ++i) {
+    const bool object_starts =
+        object < shader.object_lines.size() && static_cast<std::size_t>(shader.object_lines[object]) == i + 1;
+    if (object_starts && ++object > 0 && shader.object_lines.size() > 1) {
+      std::printf("      -- shader object %zu of %zu\n", object, shader.object_lines.size());
+    }
     std::printf("%5zu %c %s\n", i + 1, has_site[i + 1] ? '*' : ' ', shader.lines[i].c_str());
   }
   return 0;

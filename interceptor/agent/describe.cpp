@@ -148,11 +148,6 @@ std::vector<std::unique_ptr<wire::ShaderStageT>> stages(const calls::LinkedProgr
       entry->sources.push_back(std::make_unique<wire::TextT>());
       entry->sources.back()->text = string;
     }
-    for (const auto& other : result) {
-      if (other->stage != entry->stage) continue;
-      other->reason = entry->reason =
-          "the stage is linked from several shader objects, which cannot be debugged yet";
-    }
     result.push_back(std::move(entry));
   }
   return result;

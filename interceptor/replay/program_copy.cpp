@@ -196,24 +196,18 @@ int positionAttribute(GLuint program) {
 Refusal attachReplayStages(const Original& original, const wire::PrepareT& request, ShaderCache& cache,
                            GLuint copy) {
   const GLenum replaced = shaderType(request.stage);
-  const auto of_stage =
-      std::count_if(original.linked.shaders.begin(), original.linked.shaders.end(),
-                    [&](const calls::LinkedShader& shader) { return shader.type == replaced; });
-  if (of_stage == 0) {
+  const auto of_stage = [&](const calls::LinkedShader& shader) { return shader.type == replaced; };
+  if (std::none_of(original.linked.shaders.begin(), original.linked.shaders.end(), of_stage)) {
     return guard::unsupported(std::string("the program has no ") + stageWord(replaced) + " shader");
   }
-  if (of_stage > 1 && !request.text.empty()) {
-    return guard::unsupported(std::string("the ") + stageWord(replaced) +
-                              " stage is linked from several shader objects, which cannot be debugged yet");
-  }
   std::string log;
+  if (!request.text.empty()) {
+    const OwnShader own{compile(replaced, {request.text}, log)};
+    if (own.name == 0) return doesNotCompile(replaced, log);
+    gl().AttachShader(copy, own.name);
+  }
   for (const calls::LinkedShader& shader : original.linked.shaders) {
-    if (shader.type == replaced && !request.text.empty()) {
-      const OwnShader own{compile(replaced, {request.text}, log)};
-      if (own.name == 0) return doesNotCompile(replaced, log);
-      gl().AttachShader(copy, own.name);
-      continue;
-    }
+    if (of_stage(shader) && !request.text.empty()) continue;  // the one text stands for all of the stage's
     if (!shader.source->reason.empty()) {
       return guard::unsupported(std::string("the ") + stageWord(shader.type) +
                                 " shader cannot be rebuilt: " + shader.source->reason);

@@ -2,6 +2,8 @@
 // (its exit status), and closed forms of what its shader computes.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "launch.h"
 
 namespace shadestep::test {
@@ -65,6 +67,29 @@ TEST(Programs, DiscardedThreadsAreFollowedAndSaidToBeLeftOutElsewhere) {
   EXPECT_NE(all.json()["check"]["left_out"].dump().find("discard"), std::string::npos);
   EXPECT_TRUE(
       scratch.shadestep({"loops", "--json"}, {program("discard")}).json()["check"]["left_out"].is_string());
+}
+
+TEST(Programs, AStageOfSeveralShaderObjectsIsOneText) {
+  const Scratch scratch;
+  const std::vector<std::string> command = {program("several-objects")};
+  EXPECT_EQ(scratch.shadestep({"source", "--json"}, command).json()["objects"], Json({1, 10, 28}));
+
+  const Json run = scratch.shadestep({"debug", "--pixel", "40,8", "--json"}, command).json();
+  EXPECT_EQ(run["check"]["outputs"], "identical");
+  EXPECT_EQ(lastValue(run, "h"), 3 * (0.5 * 40.5 + 0.25 * 8.5 + 0.125));
+  std::set<int> lines;
+  for (const Json& step : run["steps"]) lines.insert(step["line"].get<int>());
+  EXPECT_TRUE(lines.count(8) && lines.count(23) && lines.count(34)) << run["steps"];  // one of each object
+
+  scratch.shadestep({"debug", "--at", "34", "--print", "h,counter", "--csv", "h.csv"}, command);
+  const auto rows = readCsv(scratch.file("h.csv"));
+  ASSERT_EQ(rows.size(), 64u * 64u);
+  for (const auto& row : rows) {
+    const double x = std::stoi(row[0]) + 0.5;
+    const double y = std::stoi(row[1]) + 0.5;
+    ASSERT_EQ(std::stod(row[2]), 3 * (0.5 * x + 0.25 * y + 0.125)) << row[0] << "," << row[1];
+    ASSERT_EQ(std::stod(row[3]), 5.0);
+  }
 }
 
 TEST(Programs, OpenGlEsIsFollowedToo) {

@@ -126,6 +126,16 @@ TEST(Size, TenThousandStatementsAreAnalysed) {
   EXPECT_EQ(shader.statements.size(), 10003u);
 }
 
+TEST(Size, TenThousandVariablesInOneScopeAreAnalysed) {
+  std::string source = "void main() {\n float y0 = 0.0;\n";
+  for (int i = 1; i < 10000; ++i)
+    source += " float y" + std::to_string(i) + " = y" + std::to_string(i - 1) + ";\n";
+  const Analysis analysis = analyse(Stage::fragment, {source + " gl_FragColor = vec4(y9999);\n}\n"}, {});
+  ASSERT_TRUE(analysis.shader) << analysis.error;
+  EXPECT_EQ(statement(*analysis.shader, "float y5000").scope.size(), 5001u);  // with gl_FragColor
+  EXPECT_EQ(statement(*analysis.shader, "gl_FragColor").scope.size(), 10001u);
+}
+
 TEST(Size, DeepNestingIsAnalysed) {
   std::string source = "void main() { float x = 0.0; ";
   for (int i = 0; i < 150; ++i) source += "if (x < 1.0) { ";

@@ -75,8 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Situations, Refusals,
                                          Refused{"query", "query"}, Refused{"condition", "condition"},
                                          Refused{"no-rasterizer", "GL_RASTERIZER_DISCARD"},
                                          Refused{"multisampled", "multisampled"},
-                                         Refused{"pipeline", "pipeline"},
-                                         Refused{"several-shaders", "several shader objects"}),
+                                         Refused{"pipeline", "pipeline"}),
                          [](const auto& one) {
                            std::string name = one.param.situation;
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -127,6 +126,30 @@ TEST(Situations, displayListsAreReplayed) {
 TEST(Situations, transformFeedbackPausesForReplays) {
   Session session(SITUATION, "feedback", "");
   expectHalfEverywhere(session, "0.5");
+  end(session);
+}
+
+TEST(Situations, oneTextStandsForAllShadersOfTheStage) {
+  Session session(SITUATION, "several-shaders", "");
+  session.resumeTo(0, 0);
+  ASSERT_NE(session.receive(), nullptr);
+  const wire::DrawT draw = session.describe();
+  ASSERT_EQ(draw.stages.size(), 3U);  // a vertex and two fragment shader objects
+  for (const auto& stage : draw.stages) EXPECT_EQ(stage->reason, "");
+  wire::PrepareT prepare;
+  prepare.text =
+      "#version 330 compatibility\nvec4 halves() { return vec4(0.5); }\nout vec4 color;\nout uvec4 seen;\n"
+      "void main() { color = halves(); seen = uvec4(floatBitsToUint(color.x), 1u, 2u, 3u); }\n";
+  prepare.user_outputs = {"color"};
+  prepare.captures.push_back(captureOutput("seen", wire::CaptureFormat::Uint4));
+  wire::ExecuteT execute;
+  execute.handle = session.prepare(prepare);
+  execute.compare = true;
+  const wire::ExecutedT executed = session.execute(execute);
+  EXPECT_GT(executed.compared, 0U);
+  EXPECT_EQ(executed.differing, 0U);
+  const auto words = session.values<std::uint32_t>(executed.attachments.at(0));
+  EXPECT_EQ(words.at(0), word(0.5F));
   end(session);
 }
 
