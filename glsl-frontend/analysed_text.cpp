@@ -56,6 +56,7 @@ class Builder {
 
   AnalysedText build() {
     add("#version " + dialect_.version, {});
+    if (dialect_.relaxed) add("#extension GL_EXT_shader_image_load_formatted : enable", {});
     result_.es = dialect_.version == "100" || dialect_.version.find("es") != std::string::npos;
     std::size_t insertion = 0;
     bool directives = true;

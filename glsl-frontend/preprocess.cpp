@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "glsl-frontend/condition.h"
+#include "glsl-frontend/extension_macros.h"
 #include "glsl-frontend/lexer.h"
 #include "glsl-frontend/macros.h"
 #include "glsl-frontend/tokens.h"
@@ -24,9 +25,9 @@ struct Conditional {
 
 class Preprocessor {
  public:
-  Preprocessor(const PreprocessorFacts& facts, int first_line, Preprocessed& result) : result_(result) {
+  Preprocessor(const PreprocessorFacts& facts, int first_line, Preprocessed& result)
+      : facts_(facts), result_(result) {
     macros_.setLine(first_line - 1, 1);
-    for (const std::string& extension : facts.extensions) macros_.defineNumber(extension, 1);
     setVersion(facts.es ? 100 : 110, facts.es ? "es" : "");
     if (facts.es) result_.profile = "";
   }
@@ -162,6 +163,13 @@ class Preprocessor {
                              "GL_FRAGMENT_PRECISION_HIGH"}) {
       macros_.undefine(name);
     }
+    for (const std::string& extension : facts_.extensions) {
+      if (hasMacro(extension, version, es)) {
+        macros_.defineNumber(extension, 1);
+      } else {
+        macros_.undefine(extension);
+      }
+    }
     macros_.defineNumber("__VERSION__", version);
     if (es) macros_.defineNumber("GL_ES", 1);
     if (es && version >= 300) macros_.defineNumber("GL_es_profile", 1);
@@ -218,6 +226,7 @@ class Preprocessor {
 
   [[noreturn]] void fail(const std::string& message) const { throw PreprocessError{place_, message}; }
 
+  const PreprocessorFacts& facts_;
   Preprocessed& result_;
   MacroTable macros_;
   std::vector<Conditional> conditionals_;

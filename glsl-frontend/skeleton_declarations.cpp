@@ -62,7 +62,9 @@ void Parser::qualifier(Qualifiers& qualifiers) {
   const bool layout = is("layout");
   ++at_;
   if (is("(") && layout) {
+    const Position start = at_ - 1;
     layoutIds();
+    qualifiers.layout = range(start, at_ - 1);
   } else if (is("(")) {
     at_ += closing(0) + 1;
   }
@@ -86,6 +88,8 @@ DeclarationHead Parser::declarationHead() {
     head.has_type = true;
   } else if (isName() && (isName(1) || arrayedTypeStartsHere())) {
     head.type = {current(), current()};
+    if (isImage(text()) && !head.qualifiers.layout.empty())
+      image_layouts_.emplace_back(text(), head.qualifiers.layout);
     ++at_;
     head.has_type = true;
   }

@@ -143,6 +143,7 @@ std::string Parser::parameter(std::vector<VariableId>& parameters) {
   Qualifiers qualifiers;
   while (qualifierStartsHere()) qualifier(qualifiers);
   std::string type = qualifiers.is_unsigned ? "uint" : text();
+  if (isImage(type)) image_parameters_.insert(type);
   if (!isName()) fail("a parameter's type was expected before '" + text() + "'");
   ++at_;
   std::string dimensions = dimensionTexts();

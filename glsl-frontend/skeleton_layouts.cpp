@@ -42,4 +42,17 @@ void Parser::layoutIds() {
   }
 }
 
+bool Parser::isImage(const std::string& type) {
+  const std::size_t start = type.find("image");
+  return start == 0 || (start == 1 && (type[0] == 'i' || type[0] == 'u'));
+}
+
+// glslang wants an argument to have its parameter's format, and lets no parameter have one.
+void Parser::relaxImageFormats() {
+  for (const auto& [type, layout] : image_layouts_) {
+    if (image_parameters_.count(type) == 0) continue;
+    for (TokenIndex i = layout.first; i <= layout.last; ++i) out_.relaxed_as[i] = "";
+  }
+}
+
 }  // namespace shadestep::frontend::skeleton

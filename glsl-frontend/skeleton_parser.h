@@ -23,6 +23,7 @@ struct Qualifiers {
   bool is_unsigned = false;  // `unsigned int` (EXT_gpu_shader4)
   bool subroutine = false;
   std::vector<std::string> implements;  // the types of subroutine(...)
+  TokenRange layout;                    // the last layout(...)
   bool any = false;
 };
 
@@ -59,6 +60,7 @@ class Parser {
   void parse() {
     while (!atEnd()) externalDeclaration();
     findCandidates();
+    relaxImageFormats();
   }
 
  private:
@@ -200,6 +202,8 @@ class Parser {
   void findCandidates();
   std::string textOf(const TokenRange& tokens) const;
   void layoutIds();
+  static bool isImage(const std::string& type);
+  void relaxImageFormats();
 
   // ---- statements
 
@@ -256,6 +260,8 @@ class Parser {
   std::unordered_map<std::string, std::vector<FunctionId>> implementations_;  // by subroutine type
   std::vector<std::pair<FunctionId, std::string>> subroutine_uniforms_;       // and their types
   std::set<std::string> subroutine_arrays_;
+  std::vector<std::pair<std::string, TokenRange>> image_layouts_;  // by the image's type
+  std::set<std::string> image_parameters_;                         // types
   FunctionId function_ = kNone;
   StatementId statement_ = kNone;  // whose own tokens are being read
 };

@@ -114,6 +114,15 @@ TEST(Layouts, WhereThingsLieIsTheDriversBusiness) {
   EXPECT_THAT(names(shader, shader.outputs), ElementsAre("c"));
 }
 
+TEST(Images, MayBePassedWithoutTheirFormat) {
+  const Shader shader = analysed(
+      "#version 420\nlayout(rgba32f, binding = 1) uniform image2D x; out vec4 c;\n"
+      "vec4 f(image2D y) { imageStore(y, ivec2(1), vec4(0.0)); return imageLoad(y, ivec2(0)); }\n"
+      "void main() { c = f(x); }\n");
+  EXPECT_TRUE(shader.traits.writes_memory);
+  EXPECT_EQ(glslName(findVariable(shader, "y")->type), "image2D");
+}
+
 // The size is the driver's secret then: such an array holds nothing to show, rather than something wrong.
 TEST(ArraySizes, ThatGlslangDoesNotFoldAreUnknown) {
   const Shader shader = analysed(

@@ -84,6 +84,45 @@ TEST(Preprocess, ACommentSeparatesTokensAndMayStandInADirective) {
   EXPECT_EQ(processed("/* never closed"), "error: line 1: this comment is not closed");
 }
 
+TEST(Preprocess, CommentsMayBeInAnyEncoding) {
+  for (const std::string comment : {"\xC3\xA4\xE2\x82\xAC", "\xE4\xF6", "\xFF\xFE\x80 \xC3"}) {
+    const Preprocessed result = preprocess({"/*" + comment + "*/ a // " + comment + "\nb"}, {});
+    EXPECT_THAT(texts(result), ElementsAre("a", "b"));
+    EXPECT_EQ(tokenNamed(result, "a").place.column, static_cast<int>(comment.size()) + 6);  // bytes
+    EXPECT_EQ(tokenNamed(result, "b").place, (Place{2, 1}));
+  }
+}
+
+TEST(Preprocess, AnythingMayStretchOverStrings) {
+  EXPECT_THAT(texts(preprocess({"a /", "/ b\nc /", "* d *", "/ e"}, {})), ElementsAre("a", "c", "e"));
+  EXPECT_THAT(texts(preprocess({"#def", "ine X ", "1 \\", "\n + 2\nX"}, {})), ElementsAre("1", "+", "2"));
+  EXPECT_THAT(texts(preprocess({"x +", "", "= 1.", "5;"}, {})), ElementsAre("x", "+=", "1.5", ";"));
+  EXPECT_THAT(texts(preprocess({"", "#version 330\n", "#line 7 2\n__LINE__ ", "__FILE__"}, {})),
+              ElementsAre("#version 330", "7", "2"));
+  EXPECT_THAT(texts(preprocess({"a\r", "\nb"}, {})), ElementsAre("a", "b"));
+  EXPECT_EQ(tokenNamed(preprocess({"a\r", "\nb"}, {}), "b").place, (Place{2, 1}));
+}
+
+// As Mesa 22.3.6 has them, of its own list of extensions.
+TEST(Macros, OfExtensionsExistOnlyForTheShadingLanguage) {
+  PreprocessorFacts driver;
+  driver.extensions = {"GL_ARB_shader_clock",  "GL_ARB_texture_rectangle", "GL_ARB_texture_non_power_of_two",
+                       "GL_ARB_vertex_shader", "GL_ARB_gpu_shader_fp64",   "GL_OES_geometry_shader"};
+  const auto defined = [&](const std::string& version, bool es) {
+    driver.es = es;
+    std::string text = version;
+    for (std::size_t i = 0; i < driver.extensions.size(); ++i)
+      text += "#ifdef " + driver.extensions[i] + "\n" + std::to_string(i) + "\n#endif\n";
+    const std::vector<std::string> found = texts(preprocess({text}, driver));
+    return std::vector<std::string>(found.begin() + (version.empty() ? 0 : 1), found.end());
+  };
+  EXPECT_THAT(defined("", false), ElementsAre("0", "1"));
+  EXPECT_THAT(defined("#version 140\n", false), ElementsAre("0", "1"));
+  EXPECT_THAT(defined("#version 150\n", false), ElementsAre("0", "1", "4"));
+  EXPECT_THAT(defined("", true), ElementsAre("0", "1"));
+  EXPECT_THAT(defined("#version 310 es\n", true), ElementsAre("0", "1", "5"));
+}
+
 TEST(Macros, ObjectLikeAreReplacedAtTheirUse) {
   const Preprocessed result = preprocess({"#define N (2 + 3)\nint a = N;"}, {});
   EXPECT_THAT(texts(result), ElementsAre("int", "a", "=", "(", "2", "+", "3", ")", ";"));
@@ -174,7 +213,7 @@ TEST(Conditions, AreEvaluatedAsIntegers) {
                                 "!0",
                                 "!defined X",
                                 "!defined(X)",
-                                "defined(GL_EXT_x)",
+                                "defined(GL_ARB_shader_clock)",
                                 "0 && 1 / 0 || 1",
                                 "1 || 1 / 0",
                                 "2 > 1 && 1 >= 1 && 1 <= 1 && 1 != 2",
@@ -184,7 +223,7 @@ TEST(Conditions, AreEvaluatedAsIntegers) {
                                 "UNKNOWN == 0",
                                 "__VERSION__ == 110"}) {
     PreprocessorFacts facts;
-    facts.extensions = {"GL_EXT_x"};
+    facts.extensions = {"GL_ARB_shader_clock"};
     EXPECT_EQ(processed(std::string("#if ") + condition + "\nyes\n#endif", facts), "yes") << condition;
   }
   EXPECT_EQ(holds("0"), "");
