@@ -36,7 +36,7 @@ struct Token {
 
 // What stands before the version is known: facts about the driver that the preprocessor needs.
 struct PreprocessorFacts {
-  // Extension macros that the driver defines (each as 1), e.g. "GL_ARB_shader_clock".
+  // Extensions that the driver lists, e.g. "GL_ARB_shader_clock". Those that change the language have macros.
   std::vector<std::string> extensions;
   bool es = false;
 };
