@@ -23,7 +23,7 @@ struct Fixture {
     one.place = {line, 1};
     one.function = function;
     one.parent = parent;
-    one.scope = {0, 1};
+    one.scope = std::vector<frontend::VariableId>{0, 1};
     shader.statements.push_back(one);
     return static_cast<int>(shader.statements.size()) - 1;
   }
