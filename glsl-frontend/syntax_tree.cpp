@@ -43,7 +43,8 @@ const TBuiltInResource& generousLimits() {
     limits.maxCombinedAtomicCounterBuffers = 64;
     limits.maxFragmentAtomicCounterBuffers = 64;
     limits.maxDualSourceDrawBuffersEXT = 8;
-    // These are the sizes of built-in arrays: with glslang's own 32 their last elements are refused everywhere.
+    // These are the sizes of built-in arrays: with glslang's own 32 their last elements are refused
+    // everywhere.
     limits.maxDrawBuffers = 8;
     limits.maxLights = 8;
     limits.maxClipPlanes = 8;
