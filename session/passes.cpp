@@ -135,6 +135,18 @@ bool countsRowsFromTop(const frontend::Shader& shader) {
                      [](const frontend::Token& token) { return token.text == "origin_upper_left"; });
 }
 
+std::unique_ptr<wire::RasterT> raster(const FragmentChoice& choice) {
+  if (!choice.forces()) return nullptr;
+  const auto as_wire = [](FragmentChoice::Switch value) { return static_cast<wire::Switch>(value); };
+  auto raster = std::make_unique<wire::RasterT>();
+  raster->alpha_test = as_wire(choice.alpha_test);
+  raster->depth_test = as_wire(choice.depth_test);
+  raster->stencil_test = as_wire(choice.stencil_test);
+  raster->blend = as_wire(choice.blend);
+  raster->clear_buffers = choice.clear_buffers;
+  return raster;
+}
+
 // The words of one range of the bulk memory; throws if the agent's numbers do not fit.
 std::span<const std::uint32_t> wordsOf(const wire::SharedMemory& bulk, const wire::BulkRangeT* range) {
   if (range == nullptr || range->bytes == 0) return {};
@@ -149,6 +161,26 @@ std::vector<std::uint32_t> copyOf(std::span<const std::uint32_t> words) {
 }
 
 }  // namespace
+
+void Session::choose(const FragmentChoice& choice) {
+  const DrawFacts& draw = facts();
+  const auto among = [](int chosen, int there, const std::string& what) {
+    if (chosen >= 0 && chosen < std::max(there, 1)) return;
+    throw Error(Outcome::nothing_matches,
+                there == 0 ? "the draw's target has no " + what + "s to choose from"
+                           : "no " + what + " " + std::to_string(chosen) + "; the draw's target has " +
+                                 std::to_string(there) + ": 0 to " + std::to_string(there - 1));
+  };
+  among(choice.layer, draw.layers, "layer");
+  among(choice.sample, draw.samples, "sample");
+  if (choice.alpha_test == FragmentChoice::Switch::on && (draw.core || draw.es)) {
+    throw Error(Outcome::cannot_debug, "there is no alpha test in " +
+                                           std::string(draw.es ? "OpenGL ES" : "a core profile") +
+                                           ", which the program uses");
+  }
+  state_->fragments = choice;
+  state_->undefined.reset();
+}
 
 Prepared Session::send(wire::PrepareT&& prepare) {
   const auto [reply, bulk] = state_->ask<wire::PreparedT>(std::move(prepare));
@@ -204,6 +236,9 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   execute.read_captures = options.read_captures;
   execute.repeats = static_cast<std::uint32_t>(options.repeats);
   execute.covering_size = options.covering_size;
+  execute.layer = state_->fragments.layer;
+  execute.sample = state_->fragments.sample;
+  execute.raster = raster(state_->fragments);
 
   auto [reply, descriptor] = state_->ask<wire::ExecutedT>(std::move(execute));
   Execution result;
@@ -236,7 +271,9 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   result.check.compared = reply.compared;
   result.check.differing = reply.differing;
   result.check.reason = options.compare ? reply.compare_reason : "not asked for";
-  if (reply.differing + reply.unstable > 0 && reply.outside_colors == 0) {
+  // What is looked at there is one plane of the target.
+  const bool one_plane = facts().layers <= 1 && facts().samples <= 1;
+  if (reply.differing + reply.unstable > 0 && reply.outside_colors == 0 && one_plane) {
     leaveOutUndefined(prepared, options, reply.unstable, result.check);
   }
   return result;

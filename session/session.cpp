@@ -57,6 +57,8 @@ DrawFacts unpack(const wire::DrawT& draw) {
   facts.draw_buffers = draw.draw_buffers;
   facts.max_draw_buffers = draw.max_draw_buffers;
   facts.max_storage_blocks = draw.max_storage_blocks;
+  facts.layers = draw.layers;
+  facts.samples = draw.samples;
   return facts;
 }
 

@@ -18,6 +18,7 @@
 #include "glsl-frontend/shader.h"
 #include "instrumenter/instrumenter.h"
 #include "session/error.h"
+#include "session/fragment_choice.h"
 
 namespace shadestep::wire {
 struct PrepareT;
@@ -72,6 +73,8 @@ struct DrawFacts {
   int viewport[4] = {0, 0, 0, 0};
   int width = 0, height = 0;  // of the draw framebuffer
   int draw_buffers = 1, max_draw_buffers = 8, max_storage_blocks = 0;
+  int layers = 0;   // of the draw framebuffer; 0 = not layered
+  int samples = 0;  // 0 = not multisampled
 
   bool has(const std::string& extension) const;
 };
@@ -219,6 +222,9 @@ class Session {
   void requireCapturable();
 
   // ---- capture passes at the current stop ----
+  // Holds for all executions from here on, at later stops too. Throws nothing_matches if the current draw's
+  // target has no such layer or sample, cannot_debug if its context has no such test.
+  void choose(const FragmentChoice&);
   Prepared prepare(const instrumenter::AttachmentShader&);
   Prepared prepare(const instrumenter::RecordingShader&);
   Prepared prepareOriginal();  // the program's own text

@@ -27,6 +27,7 @@ struct Session::State {
   std::optional<DrawFacts> facts;
   std::map<Stage, frontend::Shader> shaders;
   std::optional<UndefinedOutputs> undefined;
+  FragmentChoice fragments;
 
   void leaveStop() {
     stop.reset();

@@ -23,7 +23,7 @@ bool any(const std::vector<std::uint64_t>& counts) {
 }  // namespace
 
 // The guard of pixel reads lives here and not around compare(): what it sets may change what a draw draws.
-Refusal Check::read(const capture::Shadow& shadow, const guard::WritableMemory& memory,
+Refusal Check::read(capture::Shadow& shadow, const guard::WritableMemory& memory,
                     wire::SharedMemory& into) const {
   const std::size_t bytes = guard::totalBytes(allSections(shadow, memory));
   into = wire::SharedMemory::create("shadestep-outputs", std::max<std::size_t>(bytes, 1));
@@ -33,13 +33,13 @@ Refusal Check::read(const capture::Shadow& shadow, const guard::WritableMemory& 
   return memory.read(into.data() + guard::totalBytes(shadow.sections()));
 }
 
-Refusal Check::keepReference(const capture::Shadow& shadow, const guard::WritableMemory& memory) {
+Refusal Check::keepReference(capture::Shadow& shadow, const guard::WritableMemory& memory) {
   Refusal refusal = read(shadow, memory, reference_);
   if (!refusal.text.empty()) dropReference();
   return refusal;
 }
 
-Refusal Check::compare(const capture::Shadow& shadow, const guard::WritableMemory& memory, const Draw& again,
+Refusal Check::compare(capture::Shadow& shadow, const guard::WritableMemory& memory, const Draw& again,
                        wire::ExecutedT& executed) const {
   const std::vector<Section> sections = allSections(shadow, memory);
   wire::SharedMemory drawn;

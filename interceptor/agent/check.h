@@ -25,17 +25,17 @@ class Check {
 
   explicit Check(const guard::ContextFacts& facts) : facts_(facts) {}
   // Keeps what such a draw has just left.
-  guard::Refusal keepReference(const capture::Shadow&, const guard::WritableMemory&);
+  guard::Refusal keepReference(capture::Shadow&, const guard::WritableMemory&);
   bool hasReference() const { return static_cast<bool>(reference_); }
   void dropReference() { reference_ = {}; }
 
   // Compares what lies there now, and fills the answer's fields about it. After `again` was called, what the
   // instrumented replay left is gone.
-  guard::Refusal compare(const capture::Shadow&, const guard::WritableMemory&, const Draw& again,
+  guard::Refusal compare(capture::Shadow&, const guard::WritableMemory&, const Draw& again,
                          wire::ExecutedT&) const;
 
  private:
-  guard::Refusal read(const capture::Shadow&, const guard::WritableMemory&, wire::SharedMemory& into) const;
+  guard::Refusal read(capture::Shadow&, const guard::WritableMemory&, wire::SharedMemory& into) const;
 
   const guard::ContextFacts& facts_;
   wire::SharedMemory reference_;

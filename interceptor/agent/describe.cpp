@@ -198,6 +198,8 @@ wire::DrawT describe(const DrawFacts& facts) {
   draw.draw_buffers = facts.target.draw_buffers;
   draw.max_draw_buffers = context.max_draw_buffers;
   draw.max_storage_blocks = context.max_storage_blocks;
+  draw.layers = facts.target.layers;
+  draw.samples = facts.target.samples;
   return draw;
 }
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "interceptor/dispatch/dispatch.h"
-#include "interceptor/replay/writable.h"
 #include "interceptor/guard/state_digest.h"
+#include "interceptor/replay/writable.h"
 
 namespace shadestep::agent {
 namespace {
@@ -82,40 +82,26 @@ std::uint64_t pixelBytes(int width, int height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 16;
 }
 
-// Where blending and masks are the same for all draw buffers, what the program set holds for captures too.
-Refusal obstacleInSharedState() {
-  GLboolean mask[4] = {};
-  gl().GetBooleanv(GL_COLOR_WRITEMASK, mask);
-  if (!gl().IsEnabled(GL_BLEND) && mask[0] && mask[1] && mask[2] && mask[3]) return {};
-  return guard::unsupported(
-      "blending or a colour mask is on, and this driver cannot switch it off for capture buffers alone");
+// Whether the program's state changes what capture buffers would receive, so that one draw cannot both draw
+// the program's outputs and capture: then there are two.
+bool spoilsCaptures(const guard::ContextFacts& facts, const replay::ProgramCopy& copy) {
+  if (copy.captures.empty()) return false;
+  if (copy.dual_source) return true;  // allows for no draw buffers beside the program's own
+  if (!facts.indexedDrawBuffers()) {
+    GLboolean mask[4] = {};
+    gl().GetBooleanv(GL_COLOR_WRITEMASK, mask);
+    if (gl().IsEnabled(GL_BLEND) || !mask[0] || !mask[1] || !mask[2] || !mask[3]) return true;
+  }
+  if (facts.es) return false;
+  if (gl().IsEnabled(GL_COLOR_LOGIC_OP) || gl().IsEnabled(GL_SAMPLE_ALPHA_TO_ONE)) return true;
+  GLint clamp = GL_FALSE;
+  if (facts.compatibility() && facts.atLeast(30, 0)) gl().GetIntegerv(GL_CLAMP_FRAGMENT_COLOR, &clamp);
+  return clamp == GL_TRUE;
 }
 
-// State of the program under which capture buffers would not hold what the shader wrote.
-Refusal captureObstacle(const guard::ContextFacts& facts,
-                        const std::vector<capture::CaptureBuffer>& captures) {
-  if (captures.empty()) return {};
-  if (!facts.indexedDrawBuffers()) {
-    if (Refusal refusal = obstacleInSharedState(); !refusal.text.empty()) return refusal;
-  }
-  if (facts.es) return {};
-  const auto is_float = [](const capture::CaptureBuffer& buffer) {
-    return buffer.format == wire::CaptureFormat::Float4;
-  };
-  if (!std::all_of(captures.begin(), captures.end(), is_float) && gl().IsEnabled(GL_COLOR_LOGIC_OP)) {
-    return guard::unsupported(
-        "a logic operation on colours is active (GL_COLOR_LOGIC_OP), which would change captured words");
-  }
-  if (facts.compatibility() && facts.atLeast(30, 0) &&
-      std::any_of(captures.begin(), captures.end(), is_float)) {
-    GLint clamp = GL_FALSE;
-    gl().GetIntegerv(GL_CLAMP_FRAGMENT_COLOR, &clamp);
-    if (clamp == GL_TRUE) {
-      return guard::unsupported(
-          "fragment colours are clamped (GL_CLAMP_FRAGMENT_COLOR), which would change captured floats");
-    }
-  }
-  return {};
+bool sameRaster(const wire::RasterT& a, const wire::RasterT& b) {
+  return a.alpha_test == b.alpha_test && a.depth_test == b.depth_test && a.stencil_test == b.stencil_test &&
+         a.blend == b.blend && a.clear_buffers == b.clear_buffers;
 }
 
 std::vector<int> locations(const std::vector<capture::CaptureBuffer>& captures) {
@@ -233,62 +219,58 @@ OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::Sh
   return copy.covering ? cover(copy, request, bulk) : replay(copy, program, framebuffers, request, bulk);
 }
 
-// Every repeat starts from the program's own target contents and memory, zeroed captures and a fresh storage
-// buffer: all repeats, and the program's own draw afterwards, see the same. None of that is in the measured
-// time.
+// Every repeat starts from the same target contents and memory, zeroed captures and a fresh storage buffer:
+// all repeats, and the program's own draw afterwards, see the same. None of that is in the measured time.
 OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const guard::ProgramGuard& program,
                                         const guard::FramebufferGuard& framebuffers,
                                         const wire::ExecuteT& request, wire::SharedMemory& bulk) {
   const guard::ContextFacts& context = facts().context;
   const capture::DrawTarget& target = facts().target;
-  if (Refusal refusal = captureObstacle(context, copy.captures); !refusal.text.empty()) return refusal;
+  if (Refusal refusal = checkPlane(request); !refusal.text.empty()) return refusal;
+  const guard::FragmentTestsGuard tests(context, request.raster.get());
   if (shadow_ == nullptr) shadow_ = std::make_unique<capture::Shadow>(context, target);
-  if (request.compare && !check_->hasReference()) {
+  setRaster(request.raster.get());
+  const auto keep_reference = [&]() -> Refusal {
+    if (!request.compare || check_->hasReference()) return {};
+    program.makeCurrent();
     if (Refusal refusal = drawOriginal(framebuffers); !refusal.text.empty()) return refusal;
-    if (Refusal refusal = check_->keepReference(*shadow_, *memory_); !refusal.text.empty()) return refusal;
-  }
+    return check_->keepReference(*shadow_, *memory_);
+  };
+  if (Refusal refusal = keep_reference(); !refusal.text.empty()) return refusal;
 
   wire::ExecutedT executed;
   executed.width = target.width;
   executed.height = target.height;
+  const bool twice = spoilsCaptures(context, copy);
+  const std::vector<capture::CaptureBuffer> none;
   {
-    const guard::CaptureBufferGuard plain(context, locations(copy.captures));
+    const guard::CaptureBufferGuard plain(context, twice ? std::vector<int>() : locations(copy.captures));
     if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
     for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
-      if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
-      memory_->restore();
-      if (Refusal refusal = shadow_->fill(framebuffers, copy.captures); !refusal.text.empty()) return refusal;
+      if (Refusal refusal = prepareReplay(copy, framebuffers, request, twice ? none : copy.captures);
+          !refusal.text.empty()) {
+        return refusal;
+      }
       executed.times_ns.push_back(timed([&] { call_.replay(call_.arguments); }));
     }
     if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
   }
 
   BulkLayout layout;
-  if (request.read_captures) {
-    for (std::size_t i = 0; i < copy.captures.size(); ++i) {
-      executed.attachments.push_back(layout.add(pixelBytes(target.width, target.height)));
-    }
+  for (std::size_t i = 0; request.read_captures && i < copy.captures.size(); ++i) {
+    executed.attachments.push_back(layout.add(pixelBytes(target.width, target.height)));
   }
-  if (request.read_outputs) {
-    for (const capture::ColorBuffer& color : target.colors) {
-      executed.outputs.push_back(layout.add(pixelBytes(target.width, target.height)));
-      executed.output_draw_buffers.push_back(color.draw_buffer);
-      executed.output_types.push_back(color.format.integer() ? color.format.type : GL_FLOAT);
-    }
+  for (std::size_t i = 0; request.read_outputs && i < target.colors.size(); ++i) {
+    const capture::ColorBuffer& color = target.colors[i];
+    executed.outputs.push_back(layout.add(pixelBytes(target.width, target.height)));
+    executed.output_draw_buffers.push_back(color.draw_buffer);
+    executed.output_types.push_back(color.format.integer() ? color.format.type : GL_FLOAT);
   }
   executed.storage = layout.add(storage_.words() * 4);
   if (!layout.create(bulk)) return noMemory();
 
-  {
-    const guard::PixelReadGuard reading(context);
-    for (std::size_t i = 0; i < executed.attachments.size(); ++i) {
-      shadow_->readCapture(copy.captures[i], bulk.data() + executed.attachments[i]->offset);
-    }
-    for (std::size_t i = 0; i < executed.outputs.size(); ++i) {
-      shadow_->readOutput(target.colors[i], bulk.data() + executed.outputs[i]->offset);
-    }
-  }
-  if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
+  readOutputs(request, executed, bulk);
+  if (!twice) readCaptured(copy, request, executed, bulk);
   if (request.compare) {
     const auto draw_again = [&] {
       program.makeCurrent();
@@ -299,8 +281,65 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const g
   } else {
     executed.compare_reason = "not asked for";
   }
+  if (twice) {
+    const guard::PlainColorGuard plain(context);
+    if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = prepareReplay(copy, framebuffers, request, copy.captures); !refusal.text.empty())
+      return refusal;
+    call_.replay(call_.arguments);
+    readCaptured(copy, request, executed, bulk);
+  }
   if (guard::clearErrors()) return guard::internal("the driver refused to read the captured values back");
   return executed;
+}
+
+Refusal Stop::checkPlane(const wire::ExecuteT& request) {
+  const capture::DrawTarget& target = facts().target;
+  if (request.layer >= 0 && request.layer < std::max(target.layers, 1) && request.sample >= 0 &&
+      request.sample < std::max(target.samples, 1)) {
+    return {};
+  }
+  return guard::unsupported("the draw's target has no layer " + std::to_string(request.layer) +
+                            " with a sample " + std::to_string(request.sample));
+}
+
+// What the program's own program draws under other tests, or from other contents, is another reference.
+void Stop::setRaster(const wire::RasterT* raster) {
+  const wire::RasterT wanted = raster != nullptr ? *raster : wire::RasterT{};
+  if (!sameRaster(wanted, raster_)) check_->dropReference();
+  raster_ = wanted;
+}
+
+Refusal Stop::prepareReplay(const replay::ProgramCopy& copy, const guard::FramebufferGuard& framebuffers,
+                            const wire::ExecuteT& request,
+                            const std::vector<capture::CaptureBuffer>& captures) {
+  if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
+  memory_->restore();
+  return shadow_->fill(framebuffers, captures, start());
+}
+
+capture::Shadow::Start Stop::start() const {
+  return raster_.clear_buffers ? capture::Shadow::Start::cleared : capture::Shadow::Start::copied;
+}
+
+void Stop::readOutputs(const wire::ExecuteT& request, const wire::ExecutedT& executed,
+                       wire::SharedMemory& bulk) {
+  const guard::PixelReadGuard reading(facts().context);
+  for (std::size_t i = 0; i < executed.outputs.size(); ++i) {
+    shadow_->readOutput(facts().target.colors[i], {request.layer, request.sample},
+                        bulk.data() + executed.outputs[i]->offset);
+  }
+}
+
+// What one and the same draw left in the capture and the storage buffers.
+void Stop::readCaptured(const replay::ProgramCopy& copy, const wire::ExecuteT& request,
+                        const wire::ExecutedT& executed, wire::SharedMemory& bulk) {
+  const guard::PixelReadGuard reading(facts().context);
+  for (std::size_t i = 0; i < executed.attachments.size(); ++i) {
+    shadow_->readCapture(copy.captures[i], {request.layer, request.sample},
+                         bulk.data() + executed.attachments[i]->offset);
+  }
+  if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
 }
 
 // The triangle covers the target whole and unblended: repeats need nothing in between but the program's
@@ -321,7 +360,7 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
   executed.compare_reason = "a covering triangle has no original outputs";
   {
     const guard::VertexArrayGuard vertices;
-    const guard::PlainRasterGuard raster(context, size);
+    const guard::PlainRasterGuard raster(context, size, size);
     if (Refusal refusal = covering_.bind(size, copy.colour_outputs, copy.position_attribute);
         !refusal.text.empty()) {
       return refusal;
@@ -372,7 +411,7 @@ Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
 // What the program's own program draws, into the shadow. The program is current.
 Refusal Stop::drawOriginal(const guard::FramebufferGuard& framebuffers) {
   memory_->restore();
-  if (Refusal refusal = shadow_->fill(framebuffers, {}); !refusal.text.empty()) return refusal;
+  if (Refusal refusal = shadow_->fill(framebuffers, {}, start()); !refusal.text.empty()) return refusal;
   call_.replay(call_.arguments);
   if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
   return {};

@@ -14,6 +14,7 @@
 #include "interceptor/capture/shadow.h"
 #include "interceptor/capture/storage.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/fragment_guards.h"
 #include "interceptor/guard/guards.h"
 #include "interceptor/guard/memory.h"
 #include "interceptor/guard/refusal.h"
@@ -45,6 +46,14 @@ class Stop {
                                            wire::SharedMemory& bulk);
   guard::OrRefusal<wire::ExecutedT> cover(const replay::ProgramCopy&, const wire::ExecuteT&,
                                           wire::SharedMemory& bulk);
+  guard::Refusal checkPlane(const wire::ExecuteT&);
+  void setRaster(const wire::RasterT*);
+  guard::Refusal prepareReplay(const replay::ProgramCopy&, const guard::FramebufferGuard&,
+                               const wire::ExecuteT&, const std::vector<capture::CaptureBuffer>&);
+  capture::Shadow::Start start() const;
+  void readOutputs(const wire::ExecuteT&, const wire::ExecutedT&, wire::SharedMemory& bulk);
+  void readCaptured(const replay::ProgramCopy&, const wire::ExecuteT&, const wire::ExecutedT&,
+                    wire::SharedMemory& bulk);
   guard::Refusal saveMemory(const replay::ProgramCopy&);
   guard::Refusal drawOriginal(const guard::FramebufferGuard&);
   guard::Refusal resetStorage(const replay::ProgramCopy&, const wire::ExecuteT&);
@@ -56,6 +65,7 @@ class Stop {
   std::unique_ptr<capture::Shadow> shadow_;
   std::optional<guard::WritableMemory> memory_;
   std::optional<Check> check_;
+  wire::RasterT raster_;  // under which the reference was drawn
   capture::Covering covering_;
   capture::StorageBuffer storage_;
   replay::ShaderCache shaders_;

@@ -27,128 +27,74 @@ GLint attachmentParameter(GLenum target, GLenum attachment, GLenum name) {
   return value;
 }
 
-// ---- formats
-// -------------------------------------------------------------------------------------------------
-
-// Formats whose components all have the same number of bits.
-struct Uniform {
-  GLenum type;
-  int bits;
-  std::array<GLenum, 4> formats;  // with 1 to 4 components; 0 = none
-};
-constexpr std::array kUniform = {
-    Uniform{GL_UNSIGNED_NORMALIZED, 8, {GL_R8, GL_RG8, GL_RGB8, GL_RGBA8}},
-    Uniform{GL_UNSIGNED_NORMALIZED, 16, {GL_R16, GL_RG16, GL_RGB16, GL_RGBA16}},
-    Uniform{GL_UNSIGNED_NORMALIZED, 4, {0, 0, GL_RGB4, GL_RGBA4}},
-    Uniform{GL_SIGNED_NORMALIZED, 8, {GL_R8_SNORM, GL_RG8_SNORM, GL_RGB8_SNORM, GL_RGBA8_SNORM}},
-    Uniform{GL_SIGNED_NORMALIZED, 16, {GL_R16_SNORM, GL_RG16_SNORM, GL_RGB16_SNORM, GL_RGBA16_SNORM}},
-    Uniform{GL_FLOAT, 16, {GL_R16F, GL_RG16F, GL_RGB16F, GL_RGBA16F}},
-    Uniform{GL_FLOAT, 32, {GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F}},
-    Uniform{GL_INT, 8, {GL_R8I, GL_RG8I, GL_RGB8I, GL_RGBA8I}},
-    Uniform{GL_INT, 16, {GL_R16I, GL_RG16I, GL_RGB16I, GL_RGBA16I}},
-    Uniform{GL_INT, 32, {GL_R32I, GL_RG32I, GL_RGB32I, GL_RGBA32I}},
-    Uniform{GL_UNSIGNED_INT, 8, {GL_R8UI, GL_RG8UI, GL_RGB8UI, GL_RGBA8UI}},
-    Uniform{GL_UNSIGNED_INT, 16, {GL_R16UI, GL_RG16UI, GL_RGB16UI, GL_RGBA16UI}},
-    Uniform{GL_UNSIGNED_INT, 32, {GL_R32UI, GL_RG32UI, GL_RGB32UI, GL_RGBA32UI}},
-};
-
-// The others.
-struct Mixed {
-  GLenum type;
-  std::array<int, 4> bits;
-  GLenum format;
-};
-constexpr std::array kMixed = {
-    Mixed{GL_UNSIGNED_NORMALIZED, {10, 10, 10, 2}, GL_RGB10_A2},
-    Mixed{GL_UNSIGNED_NORMALIZED, {10, 10, 10, 0}, GL_RGB10},
-    Mixed{GL_UNSIGNED_NORMALIZED, {5, 6, 5, 0}, GL_RGB565},
-    Mixed{GL_UNSIGNED_NORMALIZED, {5, 5, 5, 0}, GL_RGB5},
-    Mixed{GL_UNSIGNED_NORMALIZED, {5, 5, 5, 1}, GL_RGB5_A1},
-    Mixed{GL_FLOAT, {11, 11, 10, 0}, GL_R11F_G11F_B10F},
-    Mixed{GL_UNSIGNED_INT, {10, 10, 10, 2}, GL_RGB10_A2UI},
-};
-
-GLenum internalFormat(const Format& format) {
-  const int* bits = format.bits;
-  if (format.srgb) {
-    if (bits[0] != 8 || bits[1] != 8 || bits[2] != 8) return 0;
-    return bits[3] == 8 ? GL_SRGB8_ALPHA8 : bits[3] == 0 ? GL_SRGB8 : 0;
-  }
-  for (const Mixed& mixed : kMixed) {
-    if (mixed.type == format.type && std::equal(mixed.bits.begin(), mixed.bits.end(), bits))
-      return mixed.format;
-  }
-  const int count = format.components();
-  for (int i = 0; i < 4; ++i) {
-    if (bits[i] != (i < count ? bits[0] : 0)) return 0;  // alpha only, luminance and the like
-  }
-  for (const Uniform& uniform : kUniform) {
-    if (count > 0 && uniform.type == format.type && uniform.bits == bits[0]) {
-      return uniform.formats[static_cast<std::size_t>(count - 1)];
-    }
-  }
-  return 0;
-}
-
-GLenum depthStencilInternalFormat(const DepthStencil& bits) {
-  if (bits.stencil_bits > 0 && bits.depth_bits > 0)
-    return bits.depth_float ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
-  if (bits.stencil_bits > 0) return GL_STENCIL_INDEX8;
-  if (bits.depth_float) return GL_DEPTH_COMPONENT32F;
-  switch (bits.depth_bits) {
-    case 0:
-      return 0;
-    case 16:
-      return GL_DEPTH_COMPONENT16;
-    case 32:
-      return GL_DEPTH_COMPONENT32;
-    default:
-      return GL_DEPTH_COMPONENT24;
-  }
-}
-
-// ---- sizes
+// ---- attachments
 // ---------------------------------------------------------------------------------------------------
 
-struct Size {
+// What an attachment consists of.
+struct Attachment {
   int width = 0, height = 0;
+  int layers = 0;  // 0 = one layer is attached
+  bool fixed_sample_locations = true;
+  GLenum internal_format = 0;  // as the program asked for it
+  bool luminance = false;      // or intensity
+  AttachedTexture texture;
 };
 
-Size renderbufferSize(GLuint renderbuffer) {
+Attachment renderbufferAttachment(GLuint renderbuffer) {
   const auto before = static_cast<GLuint>(integer(GL_RENDERBUFFER_BINDING));
-  Size size;
+  const auto ask = [](GLenum name) {
+    GLint value = 0;
+    gl().GetRenderbufferParameteriv(GL_RENDERBUFFER, name, &value);
+    return value;
+  };
+  Attachment result;
   gl().BindRenderbuffer(GL_RENDERBUFFER, renderbuffer);
-  gl().GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_WIDTH, &size.width);
-  gl().GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_HEIGHT, &size.height);
+  result.width = ask(GL_RENDERBUFFER_WIDTH);
+  result.height = ask(GL_RENDERBUFFER_HEIGHT);
+  result.internal_format = static_cast<GLenum>(ask(GL_RENDERBUFFER_INTERNAL_FORMAT));
+  result.fixed_sample_locations = false;
   gl().BindRenderbuffer(GL_RENDERBUFFER, before);
-  return size;
+  return result;
+}
+
+Attachment textureAttachment(GLuint texture, GLint level, bool layered) {
+  const guard::TextureLevel found = guard::textureLevel(texture, level);
+  Attachment result;
+  result.width = found.width;
+  result.height = found.height;
+  result.layers = layered ? found.depth : 0;
+  result.fixed_sample_locations = found.fixed_sample_locations;
+  result.internal_format = found.internal_format;
+  result.luminance = found.luminance;
+  result.texture = {texture, found.target, level};
+  return result;
 }
 
 // Takes one attachment of the program's framebuffer into account: framebuffers draw to what all attachments
 // cover.
-void addAttachment(DrawTarget& target, GLenum attachment) {
+Attachment addAttachment(DrawTarget& target, GLenum attachment) {
   const auto ask = [&](GLenum name) { return attachmentParameter(GL_DRAW_FRAMEBUFFER, attachment, name); };
   const GLint object = ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE);
-  if (object != GL_TEXTURE && object != GL_RENDERBUFFER) return;
+  if (object != GL_TEXTURE && object != GL_RENDERBUFFER) return {};
   const auto name = static_cast<GLuint>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
-  Size size;
+  Attachment found;
   if (object == GL_RENDERBUFFER) {
-    size = renderbufferSize(name);
+    found = renderbufferAttachment(name);
   } else {
-    GLint layered = 0;
-    gl().GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment,
-                                             GL_FRAMEBUFFER_ATTACHMENT_LAYERED, &layered);
+    const GLint layered = ask(GL_FRAMEBUFFER_ATTACHMENT_LAYERED);
     guard::clearErrors();  // before OpenGL 3.2 nothing is layered, and asking is an error
-    if (layered) target.reason = "the draw goes to a layered framebuffer, which cannot be captured yet";
-    const guard::TextureLevel level = guard::textureLevel(name, ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL));
-    size = {level.width, level.height};
+    found = textureAttachment(name, ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL), layered != 0);
   }
-  if (size.width <= 0 || size.height <= 0) {
+  if (found.width <= 0 || found.height <= 0) {
     target.reason = "the size of an attachment of the program's framebuffer cannot be found out";
-    return;
+    return found;
   }
-  target.width = target.width == 0 ? size.width : std::min(target.width, size.width);
-  target.height = target.height == 0 ? size.height : std::min(target.height, size.height);
+  const auto take = [](int& least, int one) { least = least == 0 ? one : std::min(least, one); };
+  take(target.width, found.width);
+  take(target.height, found.height);
+  if (found.layers > 0) take(target.layers, found.layers);
+  target.fixed_sample_locations = target.fixed_sample_locations && found.fixed_sample_locations;
+  return found;
 }
 
 // The buffer of the window system's framebuffer that a draw buffer names: what it is called in questions
@@ -184,8 +130,14 @@ void addColorBuffers(DrawTarget& target, const guard::ContextFacts& facts) {
     }
     if (attachmentParameter(GL_DRAW_FRAMEBUFFER, source, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_NONE)
       continue;
-    if (target.framebuffer != 0) addAttachment(target, source);
-    const ColorBuffer color{i, source, attachmentFormat(GL_DRAW_FRAMEBUFFER, source)};
+    ColorBuffer color{i, source, attachmentFormat(GL_DRAW_FRAMEBUFFER, source), {}};
+    if (target.framebuffer != 0) {
+      const Attachment attachment = addAttachment(target, source);
+      color.texture = attachment.texture;
+      // Alpha only, luminance and the like cannot be told by their components.
+      if (color.format.internal_format == 0) color.format.internal_format = attachment.internal_format;
+      color.format.luminance = attachment.luminance;
+    }
     if (color.format.internal_format == 0) {
       target.reason = "draw buffer " + std::to_string(i) + " has a format that cannot be copied exactly";
     }
@@ -194,41 +146,51 @@ void addColorBuffers(DrawTarget& target, const guard::ContextFacts& facts) {
   }
 }
 
+void measureWindow(DrawTarget& target) {
+  target.fixed_sample_locations = false;
+  const auto size = drawableSize();
+  if (size) {
+    target.width = size->width;
+    target.height = size->height;
+  } else if (target.reason.empty()) {
+    target.reason = "the size of the program's window cannot be found out";
+  }
+}
+
+// A framebuffer without attachments.
+void takeDefaults(DrawTarget& target) {
+  const auto ask = [](GLenum name) {
+    GLint value = 0;
+    gl().GetFramebufferParameteriv(GL_DRAW_FRAMEBUFFER, name, &value);
+    return value;
+  };
+  target.width = ask(GL_FRAMEBUFFER_DEFAULT_WIDTH);
+  target.height = ask(GL_FRAMEBUFFER_DEFAULT_HEIGHT);
+  target.layers = ask(GL_FRAMEBUFFER_DEFAULT_LAYERS);
+  target.fixed_sample_locations = ask(GL_FRAMEBUFFER_DEFAULT_FIXED_SAMPLE_LOCATIONS) != 0;
+}
+
+// Why this driver cannot make a target of these layers and samples, or "".
+std::string obstacle(const DrawTarget& target, const guard::ContextFacts& facts) {
+  const auto srgb = [](const ColorBuffer& color) { return color.format.srgb; };
+  if (target.samples > 0 && !facts.multisampleTextures()) {
+    return "the draw goes to a multisampled framebuffer, whose samples this driver cannot read one by one "
+           "(OpenGL "
+           "3.2, ES 3.1 or GL_ARB_texture_multisample)";
+  }
+  if (target.samples > 0 && std::any_of(target.colors.begin(), target.colors.end(), srgb) &&
+      !(facts.textureViews() && facts.multisampleStorage())) {
+    return "the draw goes to a multisampled sRGB framebuffer, whose stored values this driver cannot read "
+           "(OpenGL 4.3 "
+           "or GL_ARB_texture_view)";
+  }
+  if (target.layers > 0 && !facts.textureStorage()) {
+    return "the draw goes to a layered framebuffer, which this driver cannot copy (GL_ARB_texture_storage)";
+  }
+  return "";
+}
+
 }  // namespace
-
-bool Format::operator==(const Format& other) const {
-  return type == other.type && srgb == other.srgb && std::equal(bits, bits + 4, other.bits);
-}
-
-Format attachmentFormat(GLenum target, GLenum attachment) {
-  Format format;
-  constexpr std::array kSizes = {GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE, GL_FRAMEBUFFER_ATTACHMENT_GREEN_SIZE,
-                                 GL_FRAMEBUFFER_ATTACHMENT_BLUE_SIZE, GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE};
-  for (std::size_t i = 0; i < kSizes.size(); ++i)
-    format.bits[i] = attachmentParameter(target, attachment, kSizes[i]);
-  format.type =
-      static_cast<GLenum>(attachmentParameter(target, attachment, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE));
-  format.srgb = attachmentParameter(target, attachment, GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) == GL_SRGB;
-  format.internal_format = internalFormat(format);
-  return format;
-}
-
-DepthStencil depthStencilFormat(GLenum target, bool default_framebuffer) {
-  const GLenum depth = default_framebuffer ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
-  const GLenum stencil = default_framebuffer ? GL_STENCIL : GL_STENCIL_ATTACHMENT;
-  DepthStencil format;
-  if (attachmentParameter(target, depth, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE) {
-    format.depth_bits = attachmentParameter(target, depth, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
-    format.depth_float =
-        format.depth_bits > 0 &&
-        attachmentParameter(target, depth, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT;
-  }
-  if (attachmentParameter(target, stencil, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE) {
-    format.stencil_bits = attachmentParameter(target, stencil, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE);
-  }
-  format.internal_format = depthStencilInternalFormat(format);
-  return format;
-}
 
 DrawTarget drawTarget(const guard::ContextFacts& facts) {
   DrawTarget target;
@@ -243,27 +205,17 @@ DrawTarget drawTarget(const guard::ContextFacts& facts) {
     target.reason = "the program's draw framebuffer is not complete: the draw does nothing";
     return target;
   }
-  if (integer(GL_SAMPLE_BUFFERS) > 0 && integer(GL_SAMPLES) > 0) {
-    target.reason = "the draw goes to a multisampled framebuffer, which cannot be captured yet";
-  }
+  if (integer(GL_SAMPLE_BUFFERS) > 0) target.samples = integer(GL_SAMPLES);
   addColorBuffers(target, facts);
   target.depth_stencil = depthStencilFormat(GL_DRAW_FRAMEBUFFER, target.framebuffer == 0);
   if (target.framebuffer == 0) {
-    const auto size = drawableSize();
-    if (size) {
-      target.width = size->width;
-      target.height = size->height;
-    } else if (target.reason.empty()) {
-      target.reason = "the size of the program's window cannot be found out";
-    }
+    measureWindow(target);
   } else {
-    addAttachment(target, GL_DEPTH_ATTACHMENT);
-    addAttachment(target, GL_STENCIL_ATTACHMENT);
-    if (target.width == 0 && (facts.atLeast(43, 31) || facts.has("GL_ARB_framebuffer_no_attachments"))) {
-      gl().GetFramebufferParameteriv(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, &target.width);
-      gl().GetFramebufferParameteriv(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, &target.height);
-    }
+    target.depth_texture = addAttachment(target, GL_DEPTH_ATTACHMENT).texture;
+    target.stencil_texture = addAttachment(target, GL_STENCIL_ATTACHMENT).texture;
+    if (target.width == 0 && facts.framebufferDefaults()) takeDefaults(target);
   }
+  if (target.reason.empty()) target.reason = obstacle(target, facts);
   guard::clearErrors();
   return target;
 }

@@ -41,6 +41,16 @@ struct ContextFacts {
   bool pixelBuffers() const { return atLeast(21, 30) || has("GL_ARB_pixel_buffer_object"); }
   bool srgbSwitch() const { return atLeast(30, 0) || has("GL_ARB_framebuffer_sRGB"); }
   bool debugOutput() const { return atLeast(43, 32) || has("GL_KHR_debug"); }
+  bool layeredFramebuffers() const { return atLeast(32, 32); }
+  bool framebufferDefaults() const { return atLeast(43, 31) || has("GL_ARB_framebuffer_no_attachments"); }
+  bool multisampleTextures() const { return atLeast(32, 31) || has("GL_ARB_texture_multisample"); }
+  bool textureStorage() const { return atLeast(42, 30) || has("GL_ARB_texture_storage"); }
+  bool multisampleStorage() const { return atLeast(43, 31) || has("GL_ARB_texture_storage_multisample"); }
+  bool textureViews() const { return atLeast(43, 0) || has("GL_ARB_texture_view"); }
+  bool stencilTextures() const { return atLeast(43, 31) || has("GL_ARB_stencil_texturing"); }
+  // Mesa stores window-system framebuffers from the top, and framebuffer objects too where asked to.
+  bool storesUpsideDown() const { return has("GL_MESA_framebuffer_flip_y"); }
+  bool clipControl() const { return atLeast(45, 0) || has("GL_ARB_clip_control"); }
   bool uniformBlocks() const { return atLeast(31, 30) || has("GL_ARB_uniform_buffer_object"); }
 };
 

@@ -43,6 +43,10 @@ CapabilityGuard::CapabilityGuard(GLenum capability, int indices)
   for (int i = 0; i < indices; ++i) enabled_.push_back(gl().IsEnabledi(capability, static_cast<GLuint>(i)));
 }
 
+void CapabilityGuard::enable() const {
+  gl().Enable(capability_);
+}
+
 void CapabilityGuard::disable() const {
   gl().Disable(capability_);
 }
@@ -224,10 +228,11 @@ VertexArrayGuard::~VertexArrayGuard() {
 // ---- a plain raster
 // ------------------------------------------------------------------------------------------
 
-PlainRasterGuard::PlainRasterGuard(const ContextFacts& facts, int size)
+PlainRasterGuard::PlainRasterGuard(const ContextFacts& facts, int width, int height)
     : viewport_arrays_(facts.viewportArrays()),
       indexed_masks_(facts.indexedDrawBuffers()),
-      polygon_mode_(!facts.es) {
+      polygon_mode_(!facts.es),
+      clip_control_(facts.clipControl()) {
   const int viewports = viewportCount(facts);
   const int draw_buffers = indexed_masks_ ? integer(GL_MAX_DRAW_BUFFERS) : 0;
 
@@ -240,7 +245,7 @@ PlainRasterGuard::PlainRasterGuard(const ContextFacts& facts, int size)
     }
     viewports_.push_back(viewport);
   }
-  gl().Viewport(0, 0, size, size);
+  gl().Viewport(0, 0, width, height);
 
   for (int i = 0; i < (indexed_masks_ ? draw_buffers : 1); ++i) {
     Mask mask{};
@@ -252,6 +257,12 @@ PlainRasterGuard::PlainRasterGuard(const ContextFacts& facts, int size)
     masks_.push_back(mask);
   }
   gl().ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+
+  if (clip_control_) {
+    clip_origin_ = integer(GL_CLIP_ORIGIN);
+    clip_depth_ = integer(GL_CLIP_DEPTH_MODE);
+    gl().ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  }
 
   disable(GL_SCISSOR_TEST, viewports);
   disable(GL_BLEND, draw_buffers);
@@ -294,6 +305,7 @@ PlainRasterGuard::~PlainRasterGuard() {
       gl().ColorMask(write[0], write[1], write[2], write[3]);
     }
   }
+  if (clip_control_) gl().ClipControl(static_cast<GLenum>(clip_origin_), static_cast<GLenum>(clip_depth_));
   if (!polygon_mode_) return;
   if (polygon_modes_[0] == polygon_modes_[1]) {
     gl().PolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(polygon_modes_[0]));

@@ -21,6 +21,7 @@ class CapabilityGuard {
   ~CapabilityGuard() { restore(); }
   CapabilityGuard(const CapabilityGuard&) = delete;
   CapabilityGuard& operator=(const CapabilityGuard&) = delete;
+  void enable() const;
   void disable() const;
   void restore() const;
 
@@ -123,10 +124,10 @@ class VertexArrayGuard {
 };
 
 // Everything between a triangle and a plain target: tests, blending, masks, culling, viewports. While it
-// lives a triangle is rasterized whole and written as it is to a target of `size` x `size`.
+// lives a triangle is rasterized whole and written as it is to a target of `width` x `height`.
 class PlainRasterGuard {
  public:
-  PlainRasterGuard(const ContextFacts&, int size);
+  PlainRasterGuard(const ContextFacts&, int width, int height);
   ~PlainRasterGuard();
 
  private:
@@ -138,7 +139,8 @@ class PlainRasterGuard {
   };
   void disable(GLenum capability, int indices = 0);
 
-  bool viewport_arrays_, indexed_masks_, polygon_mode_;
+  bool viewport_arrays_, indexed_masks_, polygon_mode_, clip_control_;
+  GLint clip_origin_ = 0, clip_depth_ = 0;
   std::vector<Viewport> viewports_;
   std::vector<Mask> masks_;
   GLint polygon_modes_[2] = {};

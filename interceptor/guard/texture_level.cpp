@@ -49,7 +49,10 @@ TextureLevel measure(const Target& entry, GLint level) {
        {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE}) {
     result.bits += ask(name);
   }
+  result.luminance = ask(GL_TEXTURE_LUMINANCE_SIZE) + ask(GL_TEXTURE_INTENSITY_SIZE) > 0;
   result.samples = ask(GL_TEXTURE_SAMPLES);
+  result.fixed_sample_locations = result.samples == 0 || ask(GL_TEXTURE_FIXED_SAMPLE_LOCATIONS) != 0;
+  result.internal_format = static_cast<GLenum>(ask(GL_TEXTURE_INTERNAL_FORMAT));
   if (entry.target == GL_TEXTURE_CUBE_MAP) result.depth = 6;
   if (entry.target == GL_TEXTURE_1D_ARRAY) {
     result.depth = result.height;

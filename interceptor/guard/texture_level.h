@@ -11,9 +11,12 @@ namespace shadestep::guard {
 struct TextureLevel {
   GLenum target = 0;  // 0: no texture that this context knows
   int width = 0, height = 0;
-  int depth = 0;    // slices, layers or faces
-  int bits = 0;     // of a texel
-  int samples = 0;  // 0 = not multisampled
+  int depth = 0;           // slices, layers or faces
+  int bits = 0;            // of a texel; luminance and intensity are not counted
+  bool luminance = false;  // or intensity
+  int samples = 0;         // 0 = not multisampled
+  bool fixed_sample_locations = true;
+  GLenum internal_format = 0;  // as the program asked for it
   // With GL_TEXTURE_BUFFER: where its texels are, in bytes.
   GLuint buffer = 0;
   GLint64 offset = 0, bytes = 0;

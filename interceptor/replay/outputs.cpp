@@ -31,31 +31,33 @@ Refusal checkPlace(const guard::ContextFacts& facts, const std::set<int>& taken,
 
 }  // namespace
 
-OrRefusal<std::set<int>> bindUserOutputs(GLuint original, GLuint copy,
-                                         const std::vector<std::string>& outputs, int most) {
-  std::set<int> taken;
+UserOutputs bindUserOutputs(GLuint original, GLuint copy, const std::vector<std::string>& outputs, int most) {
+  UserOutputs result;
   const bool indexed =
       dispatch::available("glGetFragDataIndex") && dispatch::available("glBindFragDataLocationIndexed");
   for (const std::string& name : outputs) {
     const GLint location = gl().GetFragDataLocation(original, name.c_str());
     if (location < 0) continue;  // not written by the original
-    if (indexed && gl().GetFragDataIndex(original, name.c_str()) > 0) {
-      return guard::unsupported(
-          "the shader uses dual-source blending, which leaves no draw buffer to capture into");
+    const GLint index = indexed ? gl().GetFragDataIndex(original, name.c_str()) : 0;
+    if (index > 0) {
+      gl().BindFragDataLocationIndexed(copy, static_cast<GLuint>(location), static_cast<GLuint>(index),
+                                       name.c_str());
+      result.second_sources.insert(location + 1);
+      continue;
     }
     if (dispatch::available("glBindFragDataLocation")) {
       gl().BindFragDataLocation(copy, static_cast<GLuint>(location), name.c_str());
     }
-    taken.insert(location);
+    result.locations.insert(location);
     for (int i = 1; i < most; ++i) {  // an array's other elements
       const GLint element =
           gl().GetFragDataLocation(original, (name + "[" + std::to_string(i) + "]").c_str());
       if (element < 0) break;
-      taken.insert(element);
+      result.locations.insert(element);
     }
   }
   guard::clearErrors();
-  return taken;
+  return result;
 }
 
 OrRefusal<std::vector<capture::CaptureBuffer>> bindCaptures(const guard::ContextFacts& facts,

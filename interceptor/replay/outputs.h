@@ -16,9 +16,14 @@
 
 namespace shadestep::replay {
 
-// Before the link: the outputs named keep their locations. Returns all locations taken, of at most `most`.
-guard::OrRefusal<std::set<int>> bindUserOutputs(GLuint original, GLuint copy,
-                                                const std::vector<std::string>& outputs, int most);
+struct UserOutputs {
+  std::set<int> locations;
+  // Drivers hand on the second source of blending as the output after the first: no place for captures.
+  std::set<int> second_sources;
+};
+
+// Before the link: the outputs named keep their locations, of at most `most`.
+UserOutputs bindUserOutputs(GLuint original, GLuint copy, const std::vector<std::string>& outputs, int most);
 
 // Before the link: gives every capture a location that is not in `taken`.
 guard::OrRefusal<std::vector<capture::CaptureBuffer>> bindCaptures(const guard::ContextFacts&,

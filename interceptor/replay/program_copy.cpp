@@ -249,15 +249,16 @@ Refusal link(ProgramCopy& copy) {
 
 Refusal bindOutputs(const guard::ContextFacts& facts, const Original& original, const wire::PrepareT& request,
                     ProgramCopy& copy) {
-  auto locations =
+  const UserOutputs outputs =
       bindUserOutputs(original.program, copy.program, request.user_outputs, facts.max_draw_buffers);
-  if (auto* refusal = std::get_if<Refusal>(&locations)) return *refusal;
-  const auto& taken = std::get<std::set<int>>(locations);
-  copy.colour_outputs = taken.empty() ? 1 : *taken.rbegin() + 1;
-  auto captures = bindCaptures(facts, original.target, request, copy.program, taken);
+  copy.output_locations = outputs.locations;
+  copy.dual_source = !outputs.second_sources.empty();
+  copy.colour_outputs = outputs.locations.empty() ? 1 : *outputs.locations.rbegin() + 1;
+  std::set<int> taken = outputs.locations;
+  taken.insert(outputs.second_sources.begin(), outputs.second_sources.end());
+  auto captures = bindCaptures(facts, original.target, request, copy.program, std::move(taken));
   if (auto* refusal = std::get_if<Refusal>(&captures)) return *refusal;
   copy.captures = std::get<std::vector<capture::CaptureBuffer>>(std::move(captures));
-  copy.output_locations = taken;
   return {};
 }
 

@@ -47,6 +47,7 @@ struct ProgramCopy {
   int colour_outputs = 0;          // with covering: colour buffers that its target needs
   int position_attribute = -1;  // with covering: location of the attribute to feed, -1 = none
   std::vector<capture::CaptureBuffer> captures;  // in the order of Prepare.captures
+  bool dual_source = false;                      // an output is the second source of blending
   int storage_binding = -1;                      // -1 = no storage block alive
   std::vector<SubroutineChoice> subroutines;
   std::string log;

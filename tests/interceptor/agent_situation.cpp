@@ -115,20 +115,6 @@ int noRasterizer() {
   return drawnEverywhere() ? 1 : 0;
 }
 
-int multisampled() {
-  glUseProgram(link(kVertex, {kFragment}));
-  GLuint framebuffer = 0;
-  GLuint color = 0;
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glGenRenderbuffers(1, &color);
-  glBindRenderbuffer(GL_RENDERBUFFER, color);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, GL_RGBA8, scene::kWidth, scene::kHeight);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
-  draw();
-  return 0;
-}
-
 int pipeline() {
   const GLuint fragment = glCreateShaderProgramv(GL_FRAGMENT_SHADER, 1, &kFragment);
   GLuint name = 0;
@@ -388,7 +374,6 @@ int main(int argc, char** argv) {
       {"query", activeQuery},
       {"condition", condition},
       {"no-rasterizer", noRasterizer},
-      {"multisampled", multisampled},
       {"pipeline", pipeline},
       {"several-shaders", severalShaders},
       {"feedback", feedback},

@@ -11,12 +11,16 @@ target_link_libraries(agent-scene-egl PRIVATE PkgConfig::GL)
 add_executable(agent-situation agent_situation.cpp)
 target_link_libraries(agent-situation PRIVATE PkgConfig::OSMESA)
 
-foreach(test agent_test agent_situation_test)
+add_executable(agent-target agent_target.cpp)
+target_link_libraries(agent-target PRIVATE PkgConfig::OSMESA)
+
+foreach(test agent_test agent_situation_test agent_target_test)
   shadestep_test(${test} SOURCES ${test}.cpp LINKS shadestep-wire LABELS interceptor)
   target_compile_definitions(${test} PRIVATE
     PRELOAD_LIBRARY="$<TARGET_FILE:shadestep-gl>"
     SCENE_OSMESA="$<TARGET_FILE:agent-scene-osmesa>"
     SCENE_EGL="$<TARGET_FILE:agent-scene-egl>"
-    SITUATION="$<TARGET_FILE:agent-situation>")
-  add_dependencies(${test} shadestep-gl agent-scene-osmesa agent-scene-egl agent-situation)
+    SITUATION="$<TARGET_FILE:agent-situation>"
+    TARGET="$<TARGET_FILE:agent-target>")
+  add_dependencies(${test} shadestep-gl agent-scene-osmesa agent-scene-egl agent-situation agent-target)
 endforeach()

@@ -1,0 +1,91 @@
+// What decides on a fragment after its shader: tests, blending and masks. Saved and put back as in guards.h.
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "interceptor/guard/context_facts.h"
+#include "interceptor/guard/guards.h"
+#include "interceptor/registry/gl_enums.h"
+#include "interceptor/registry/gl_types.h"
+#include "wire/messages_generated.h"
+
+namespace shadestep::guard {
+
+// The masks of colour buffers: while it lives, every component is written.
+class ColorMaskGuard {
+ public:
+  explicit ColorMaskGuard(const ContextFacts&);
+  ~ColorMaskGuard();
+  ColorMaskGuard(const ColorMaskGuard&) = delete;
+  ColorMaskGuard& operator=(const ColorMaskGuard&) = delete;
+
+ private:
+  struct Mask {
+    GLboolean write[4];
+  };
+  bool indexed_;
+  std::vector<Mask> masks_;
+};
+
+// The same of depth and stencil too: clears are complete.
+class WriteMaskGuard {
+ public:
+  explicit WriteMaskGuard(const ContextFacts&);
+  ~WriteMaskGuard();
+  WriteMaskGuard(const WriteMaskGuard&) = delete;
+  WriteMaskGuard& operator=(const WriteMaskGuard&) = delete;
+
+ private:
+  ColorMaskGuard colors_;
+  GLboolean depth_ = GL_TRUE;
+  GLint stencil_front_ = 0, stencil_back_ = 0;
+};
+
+// The functions of blending: while it lives they are those that blending starts with, which take no second
+// source.
+class BlendFunctionGuard {
+ public:
+  explicit BlendFunctionGuard(const ContextFacts&);
+  ~BlendFunctionGuard();
+  BlendFunctionGuard(const BlendFunctionGuard&) = delete;
+  BlendFunctionGuard& operator=(const BlendFunctionGuard&) = delete;
+
+ private:
+  struct Functions {
+    GLenum source_rgb, target_rgb, source_alpha, target_alpha;
+  };
+  bool indexed_;
+  std::vector<Functions> functions_;
+};
+
+// Everything between a fragment's outputs and the colour buffers: while it lives they are written as they
+// are.
+class PlainColorGuard {
+ public:
+  explicit PlainColorGuard(const ContextFacts&);
+  ~PlainColorGuard();
+  PlainColorGuard(const PlainColorGuard&) = delete;
+  PlainColorGuard& operator=(const PlainColorGuard&) = delete;
+
+ private:
+  ColorMaskGuard masks_;
+  BlendFunctionGuard functions_;
+  std::deque<CapabilityGuard> capabilities_;  // stays in place: guards neither move nor copy
+  bool clamps_;
+  GLint clamp_ = 0;
+};
+
+// Tests and blending, forced on or off while it lives. Null: all as the program has it.
+class FragmentTestsGuard {
+ public:
+  FragmentTestsGuard(const ContextFacts&, const wire::RasterT*);
+
+ private:
+  void force(GLenum capability, wire::Switch, int indices = 0);
+  std::deque<CapabilityGuard> capabilities_;
+};
+
+}  // namespace shadestep::guard
