@@ -259,45 +259,74 @@ int visibleThread(const Session::Recorded& recorded, int x, int y) {
   return -1;
 }
 
-ThreadRun followPixel(Session& session, int x, int y, int hit) {
-  const DrawFacts& facts = session.facts();
-  if (x < 0 || y < 0 || x >= facts.width || y >= facts.height) {
-    throw Error(Outcome::nothing_matches, "pixel " + std::to_string(x) + "," + std::to_string(y) +
-                                              " is outside the target of " + std::to_string(facts.width) +
-                                              " x " + std::to_string(facts.height) + " pixels");
-  }
-  const auto recordable =
-      instrumenter::instrumentRecording(session.shader(Stage::fragment), session.target());
-  if (const auto* failure = std::get_if<instrumenter::Failure>(&recordable)) {
-    if (hit > 0) throw Error(Outcome::cannot_debug, failure->reason);
-    return followPixelByProbes(session, x, y);
-  }
-  Session::Recorded recorded = session.record(x, y, 1, 1);
-  auto& threads = recorded.recording.threads;
-  if (threads.empty()) {
+PixelHits hitsOn(const Session::Recorded& recorded, int x, int y) {
+  PixelHits hits;
+  hits.count = static_cast<int>(recorded.recording.threads.size());
+  hits.visible = visibleThread(recorded, x, y);
+  for (const auto& thread : recorded.recording.threads) hits.discarded.push_back(thread.discarded);
+  return hits;
+}
+
+int pickHit(const PixelHits& hits, int x, int y, int hit) {
+  if (hit >= hits.count) {
     throw Error(Outcome::nothing_matches,
-                "the draw has no fragment on pixel " + std::to_string(x) + "," + std::to_string(y) +
-                    " (viewport " + std::to_string(facts.viewport[0]) + "," +
-                    std::to_string(facts.viewport[1]) + " " + std::to_string(facts.viewport[2]) + " x " +
-                    std::to_string(facts.viewport[3]) + "); pick one that it covers");
+                "no hit " + std::to_string(hit) + " on pixel " + std::to_string(x) + "," + std::to_string(y) +
+                    ", which has " + std::to_string(hits.count) + ": 0 to " + std::to_string(hits.count - 1));
   }
-  if (hit >= static_cast<int>(threads.size())) {
-    throw Error(Outcome::nothing_matches, "no hit " + std::to_string(hit) + " on pixel " + std::to_string(x) +
-                                              "," + std::to_string(y) + ", which has " +
-                                              std::to_string(threads.size()) + ": 0 to " +
-                                              std::to_string(threads.size() - 1));
+  return hit >= 0 ? hit : hits.visible >= 0 ? hits.visible : hits.count - 1;
+}
+
+namespace {
+
+void requireInside(Session& session, int x, int y) {
+  const DrawFacts& facts = session.facts();
+  if (x >= 0 && y >= 0 && x < facts.width && y < facts.height) return;
+  throw Error(Outcome::nothing_matches, "pixel " + std::to_string(x) + "," + std::to_string(y) +
+                                            " is outside the target of " + std::to_string(facts.width) +
+                                            " x " + std::to_string(facts.height) + " pixels");
+}
+
+Session::Recorded recordPixel(Session& session, const Session::PreparedRecording& prepared, int x, int y) {
+  Session::Recorded recorded = session.record(prepared, x, y, 1, 1);
+  if (!recorded.recording.threads.empty()) return recorded;
+  const DrawFacts& facts = session.facts();
+  throw Error(Outcome::nothing_matches,
+              "the draw has no fragment on pixel " + std::to_string(x) + "," + std::to_string(y) +
+                  " (viewport " + std::to_string(facts.viewport[0]) + "," +
+                  std::to_string(facts.viewport[1]) + " " + std::to_string(facts.viewport[2]) + " x " +
+                  std::to_string(facts.viewport[3]) + "); pick one that it covers");
+}
+
+}  // namespace
+
+Session::Recorded recordPixel(Session& session, int x, int y) {
+  requireInside(session, x, y);
+  return recordPixel(session, session.prepareRecording(), x, y);
+}
+
+ThreadRun followPixel(Session& session, int x, int y, int hit) {
+  requireInside(session, x, y);
+  std::optional<Session::PreparedRecording> prepared;
+  try {
+    prepared.emplace(session.prepareRecording());
+  } catch (const Error& error) {
+    // No storage buffers in this driver or dialect, or none left: the visible fragment can be followed all
+    // the same.
+    if (error.outcome() != Outcome::cannot_debug || hit > 0) throw;
   }
+  if (!prepared) return followPixelByProbes(session, x, y);
+  const Session::Recorded recorded = recordPixel(session, *prepared, x, y);
+  const PixelHits hits = hitsOn(recorded, x, y);
+  const int chosen = pickHit(hits, x, y, hit);
 
-  const int shown = visibleThread(recorded, x, y);
-  const int chosen = hit >= 0 ? hit : shown >= 0 ? shown : static_cast<int>(threads.size()) - 1;
-
-  const instrumenter::ThreadRecording& thread = threads[static_cast<std::size_t>(chosen)];
+  const instrumenter::ThreadRecording& thread = recorded.recording.threads[static_cast<std::size_t>(chosen)];
   ThreadRun run;
   run.x = x;
   run.y = y;
   run.hit = chosen;
-  run.hits = static_cast<int>(threads.size());
-  run.visible = chosen == shown;
+  run.hits = hits.count;
+  run.visible_hit = hits.visible;
+  run.visible = chosen == hits.visible;
   run.discarded = thread.discarded;
   run.steps = stepsOf(session.shader(Stage::fragment), recorded.layout, thread);
   run.outputs = outputsAt(recorded.execution, x, y);

@@ -36,9 +36,10 @@ struct Step {
 
 struct ThreadRun {
   int x = 0, y = 0;
-  int hit = 0;          // number of this fragment among those on its pixel, in order of start
-  int hits = 1;         // fragments on the pixel
-  bool visible = true;  // this one is what the pixel shows (so far)
+  int hit = 0;           // number of this fragment among those on its pixel, in order of start
+  int hits = 1;          // fragments on the pixel
+  int visible_hit = -1;  // which of them the pixel shows after the draw; -1 = none
+  bool visible = true;   // this one
   bool discarded = false;
   bool complete = true;  // false: there are more steps than were followed
   std::vector<Step> steps;
@@ -58,6 +59,21 @@ ThreadRun followPixel(Session&, int x, int y, int hit = -1);
 
 // Number of the recorded thread that the pixel shows; -1 if it shows none of them.
 int visibleThread(const Session::Recorded&, int x, int y);
+
+// The fragments of the draw on a pixel, in order of their start.
+struct PixelHits {
+  int count = 0;
+  int visible = -1;  // number of the one that the pixel shows after the draw; -1 = none
+  std::vector<bool> discarded;
+};
+PixelHits hitsOn(const Session::Recorded&, int x, int y);
+// The hit that is meant: `hit` itself, or, if it is < 0, the visible one (the last if none is). Throws
+// nothing_matches.
+int pickHit(const PixelHits&, int x, int y, int hit);
+
+// Records all fragments on a pixel. Throws nothing_matches if it is outside the target or the draw has none
+// there, cannot_debug if the driver cannot record.
+Session::Recorded recordPixel(Session&, int x, int y);
 
 // The steps of one recorded thread.
 std::vector<Step> stepsOf(const frontend::Shader&, const instrumenter::RecordingLayout&,

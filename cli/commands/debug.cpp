@@ -4,6 +4,17 @@
 namespace shadestep::cli {
 namespace {
 
+// --hit with --at is about one fragment, which a recording shows.
+void requireOneFragment(const DebugOptions& options) {
+  if (options.pixel.empty()) {
+    throw session::Error(session::Outcome::usage, "--hit needs --pixel X,Y, which says where");
+  }
+  if (!options.image.empty() || !options.csv.empty() || options.plan != "auto") {
+    throw session::Error(session::Outcome::usage,
+                         "--image, --csv and --plan are about all threads; with --at, --hit is about one");
+  }
+}
+
 int run(const Common& common, const DebugOptions& options) {
   if (options.at.empty() && options.pixel.empty()) {
     throw session::Error(session::Outcome::usage,
@@ -12,11 +23,13 @@ int run(const Common& common, const DebugOptions& options) {
   if (options.at.empty() && !(options.print.empty() && options.image.empty() && options.iteration.empty())) {
     throw session::Error(session::Outcome::usage, "--print, --image and --iteration go with --at LINE");
   }
+  if (!options.at.empty() && options.hit >= 0) requireOneFragment(options);
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   session.requireCapturable();
-  const int outcome =
-      options.at.empty() ? debugThread(session, common, options) : debugValues(session, common, options);
+  choose(session, options.fragments);
+  const auto look = options.at.empty() ? debugThread : options.hit >= 0 ? debugHit : debugValues;
+  const int outcome = look(session, common, options);
   if (!options.let_run) return outcome;
   const int status = session.runToEnd();
   return outcome != 0 ? outcome : status;
@@ -60,6 +73,7 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
       ->add_option("--plan", options->plan,
                    "how to get at the values of --at; they are the same by every plan")
       ->check(CLI::IsMember({"auto", "single", "window"}));
+  addFragmentOptions(*command, options->fragments);
   command->add_flag("--continue", options->let_run,
                     "then let the program run to its own end; default is to end it");
   command->callback(

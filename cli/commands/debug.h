@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/fragment_options.h"
 #include "session/thread_values.h"
 
 namespace shadestep::cli {
@@ -22,11 +23,14 @@ struct DebugOptions {
   std::string csv;
   std::string plan = "auto";
   bool let_run = false;
+  FragmentOptions fragments;
 };
 
 // The whole run of the thread on --pixel.
 int debugThread(session::Session&, const Common&, const DebugOptions&);
 // Values at --at over all threads.
 int debugValues(session::Session&, const Common&, const DebugOptions&);
+// Values at --at of the fragment --hit on --pixel.
+int debugHit(session::Session&, const Common&, const DebugOptions&);
 
 }  // namespace shadestep::cli

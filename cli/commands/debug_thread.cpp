@@ -52,12 +52,15 @@ std::string whatHappened(const Step& step) {
 }
 
 std::string summary(const ThreadRun& run) {
-  std::string text = run.discarded   ? "ended in a discard"
+  std::string text = run.discarded  ? "ended in a discard"
                      : run.complete ? "ran to its end"
                                     : "not yet at its end (without storage buffers each step costs a redraw)";
   if (run.hits > 1) {
     text += "; fragment " + std::to_string(run.hit) + " of " + std::to_string(run.hits) +
-            " on the pixel (--hit)" + (run.visible ? ", the visible one" : ", hidden");
+            " on the pixel (--hit 0 to " + std::to_string(run.hits - 1) + "), ";
+    text += run.visible            ? "the visible one"
+            : run.visible_hit >= 0 ? "hidden: the visible one is " + std::to_string(run.visible_hit)
+                                   : "none of which is visible";
   } else if (!run.visible && !run.discarded) {
     text += "; hidden by the fragment tests";
   }
@@ -65,8 +68,10 @@ std::string summary(const ThreadRun& run) {
 }
 
 std::string asText(const Shader& shader, const session::DrawStop& stop, const session::DrawFacts& facts,
-                   const ThreadRun& run) {
+                   const FragmentOptions& fragments, const ThreadRun& run) {
   std::ostringstream text;
+  const std::string forced = describe(fragments);
+  if (!forced.empty()) text << forced << "\n";
   text << "pixel " << run.x << "," << run.y << "  fragment shader of program " << facts.program << "  frame "
        << stop.frame << ", draw " << stop.draw << " (" << stop.call << ")\n"
        << facts.renderer << "  GLSL " << shader.version << "\n"
@@ -100,8 +105,13 @@ std::string asText(const Shader& shader, const session::DrawStop& stop, const se
 
 Json asJson(const ThreadRun& run) {
   Json document;
-  document["thread"] = {{"stage", "fragment"}, {"x", run.x},       {"y", run.y},
-                        {"hit", run.hit},      {"hits", run.hits}, {"visible", run.visible}};
+  document["thread"] = {{"stage", "fragment"},
+                        {"x", run.x},
+                        {"y", run.y},
+                        {"hit", run.hit},
+                        {"hits", run.hits},
+                        {"visible", run.visible},
+                        {"visible_hit", run.visible_hit < 0 ? Json(nullptr) : Json(run.visible_hit)}};
   Json steps = Json::array();
   for (const Step& step : run.steps) {
     Json one;
@@ -157,9 +167,12 @@ int debugThread(session::Session& session, const Common& common, const DebugOpti
   const ThreadRun run = session::followPixel(session, pixel[0], pixel[1], options.hit);
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(run));
   if (common.json) {
-    print(asJson(run));
+    Json document = asJson(run);
+    document["fragments"] = toJson(options.fragments);
+    print(document);
   } else {
-    std::cout << asText(session.shader(session::Stage::fragment), session.stop(), session.facts(), run);
+    std::cout << asText(session.shader(session::Stage::fragment), session.stop(), session.facts(),
+                        options.fragments, run);
   }
   return run.check.compared_at_all && !run.check.identical() ? static_cast<int>(session::Outcome::failed) : 0;
 }

@@ -4,6 +4,7 @@
 #include "cli/commands/debug.h"
 #include "profiler/pictures/files.h"
 #include "profiler/pictures/value_image.h"
+#include "session/hit_values.h"
 #include "session/plan.h"
 #include "session/values.h"
 
@@ -73,6 +74,8 @@ Json asJson(const ThreadValues& threads, const std::optional<std::size_t>& pixel
 
 void printText(const ThreadValues& threads, const DebugOptions& options,
                const std::optional<std::size_t>& pixel) {
+  const std::string forced = describe(options.fragments);
+  if (!forced.empty()) std::cout << forced << "\n";
   std::cout << (options.after ? "after" : "before") << " line " << options.at;
   if (!options.iteration.empty()) std::cout << ", iteration " << options.iteration;
   std::cout << ": " << withThousands(threads.reached) << " of " << withThousands(threads.launched)
@@ -203,13 +206,57 @@ int debugValues(session::Session& session, const Common& common, const DebugOpti
   }
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(threads));
   if (common.json) {
-    print(asJson(threads, pixel));
+    Json document = asJson(threads, pixel);
+    document["fragments"] = toJson(options.fragments);
+    print(document);
   } else {
     printText(threads, options, pixel);
   }
   return threads.check.compared_at_all && !threads.check.identical()
              ? static_cast<int>(session::Outcome::failed)
              : 0;
+}
+
+int debugHit(session::Session& session, const Common& common, const DebugOptions& options) {
+  const session::PlaceSelection place = placeOf(options);
+  const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
+  const session::HitValues found =
+      session::valuesOfHit(session, pixel[0], pixel[1], options.hit, place, splitList(options.print));
+  if (!found.reached) {
+    throw session::Error(session::Outcome::nothing_matches,
+                         "fragment " + std::to_string(found.hit) + " of " + std::to_string(found.hits.count) +
+                             " on pixel " + options.pixel + " does not get to line " + options.at +
+                             (options.iteration.empty() ? "" : " in iteration " + options.iteration));
+  }
+  const bool visible = found.hit == found.hits.visible;
+  const bool discarded = found.hits.discarded[static_cast<std::size_t>(found.hit)];
+  if (common.json) {
+    Json document;
+    document["thread"] = {
+        {"stage", "fragment"},      {"x", pixel[0]},      {"y", pixel[1]},         {"hit", found.hit},
+        {"hits", found.hits.count}, {"visible", visible}, {"discarded", discarded}};
+    Json values = Json::object();
+    for (const session::NamedValue& one : found.values)
+      values[one.name] = {{"type", glslName(one.value.type)}, {"value", toJson(one.value)}};
+    document["values"] = std::move(values);
+    document["check"] = toJson(found.check);
+    document["fragments"] = toJson(options.fragments);
+    print(document);
+  } else {
+    const std::string forced = describe(options.fragments);
+    if (!forced.empty()) std::cout << forced << "\n";
+    std::cout << (options.after ? "after" : "before") << " line " << options.at << ", pixel " << options.pixel
+              << ": fragment " << found.hit << " of " << found.hits.count << ", "
+              << (visible     ? "the visible one"
+                  : discarded ? "discarded later"
+                              : "hidden")
+              << "\n"
+              << describe(found.check) << "\n\n";
+    for (const session::NamedValue& one : found.values)
+      std::cout << one.name << " = " << session::formatValue(one.value) << "\n";
+  }
+  return found.check.compared_at_all && !found.check.identical() ? static_cast<int>(session::Outcome::failed)
+                                                                 : 0;
 }
 
 }  // namespace shadestep::cli

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "cli/common.h"
+#include "cli/fragment_options.h"
 #include "profiler/pictures/files.h"
 #include "profiler/pictures/loop_chart.h"
 #include "profiler/pictures/value_image.h"
@@ -22,6 +23,7 @@ struct Options {
   std::string compare;
   std::string label = "this run";
   std::string compare_label = "compared run";
+  FragmentOptions fragments;
 };
 
 Json asJson(const LoopsReport& report) {
@@ -144,6 +146,7 @@ void printText(const LoopsReport& report) {
 int run(const Common& common, const Options& options) {
   session::Session session(common.launchOptions());
   runToSelection(session, common);
+  choose(session, options.fragments);
   const LoopsReport report = session::profileLoops(session, options.line);
   const LoopReport& shown = busiest(report);
   std::optional<profiler::LoopRun> compared;
@@ -187,6 +190,7 @@ void addLoops(CLI::App& app, Common& common, Action& action) {
   command
       ->add_option("--compare", options->compare, "an earlier run's --json document, drawn beside this one")
       ->type_name("FILE");
+  addFragmentOptions(*command, options->fragments);
   command->add_option("--label", options->label, "what the chart calls this run")->type_name("TEXT");
   command->add_option("--compare-label", options->compare_label, "what the chart calls the compared run")
       ->type_name("TEXT");

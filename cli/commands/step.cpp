@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cli/common.h"
+#include "cli/fragment_options.h"
 #include "session/stepper.h"
 #include "session/values.h"
 
@@ -17,6 +18,7 @@ using session::Stepper;
 struct Options {
   std::string pixel;
   std::string plan = "auto";
+  FragmentOptions fragments;
 };
 
 constexpr const char* kHelp =
@@ -196,6 +198,9 @@ int run(const Common& common, const Options& options) {
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   session.requireCapturable();
+  choose(session, options.fragments);
+  const std::string forced = describe(options.fragments);
+  if (!forced.empty()) std::cout << forced << "\n";
   std::optional<std::size_t> pixel;
   if (!options.pixel.empty()) pixel = pixelIndex(session, options.pixel);
   Dialogue(session, pixel, plan.value_or(session::Plan::automatic)).run();
@@ -217,6 +222,7 @@ void addStep(CLI::App& app, Common& common, Action& action) {
       ->add_option("--plan", options->plan,
                    "single: one compilation per step; window: one for the steps around; auto: what fits")
       ->check(CLI::IsMember({"auto", "single", "window"}));
+  addFragmentOptions(*command, options->fragments);
   command->footer(kHelp);
   command->callback(
       [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });

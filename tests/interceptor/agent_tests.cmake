@@ -13,14 +13,17 @@ target_link_libraries(agent-situation PRIVATE PkgConfig::OSMESA)
 
 add_executable(agent-target agent_target.cpp)
 target_link_libraries(agent-target PRIVATE PkgConfig::OSMESA)
+add_executable(agent-memory agent_memory.cpp)
+target_link_libraries(agent-memory PRIVATE PkgConfig::OSMESA)
 
-foreach(test agent_test agent_situation_test agent_target_test)
+foreach(test agent_test agent_situation_test agent_target_test agent_memory_test)
   shadestep_test(${test} SOURCES ${test}.cpp LINKS shadestep-wire LABELS interceptor)
   target_compile_definitions(${test} PRIVATE
     PRELOAD_LIBRARY="$<TARGET_FILE:shadestep-gl>"
     SCENE_OSMESA="$<TARGET_FILE:agent-scene-osmesa>"
     SCENE_EGL="$<TARGET_FILE:agent-scene-egl>"
     SITUATION="$<TARGET_FILE:agent-situation>"
-    TARGET="$<TARGET_FILE:agent-target>")
-  add_dependencies(${test} shadestep-gl agent-scene-osmesa agent-scene-egl agent-situation agent-target)
+    TARGET="$<TARGET_FILE:agent-target>"
+    MEMORY="$<TARGET_FILE:agent-memory>")
+  add_dependencies(${test} shadestep-gl agent-scene-osmesa agent-scene-egl agent-situation agent-target agent-memory)
 endforeach()

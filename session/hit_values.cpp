@@ -1,0 +1,73 @@
+#include "session/hit_values.h"
+
+#include <algorithm>
+
+#include "session/recorded_visits.h"
+#include "session/values.h"
+
+namespace shadestep::session {
+namespace {
+
+using frontend::Shader;
+
+// The part of a variable's value that an expression like "a", "a.x" or "m[1]" names; `expression` is the
+// watch's.
+NamedValue partOf(const Shader& shader, const frontend::Watch& watch, const instrumenter::Value& whole) {
+  const std::string& name = shader.variables[static_cast<std::size_t>(watch.variable)].name;
+  std::string access = watch.expression.substr(std::min(name.size(), watch.expression.size()));
+  std::erase(access, ' ');
+  NamedValue part{watch.expression, {watch.type, {}}};
+  std::size_t word = 0;
+  for (const frontend::Component& component : frontend::components(whole.type)) {
+    const auto words = static_cast<std::size_t>(wordsPerComponent(component.basic));
+    const bool inside = component.access.starts_with(access) &&
+                        (component.access.size() == access.size() || access.empty() ||
+                         component.access[access.size()] == '.' || component.access[access.size()] == '[');
+    if (inside) {
+      part.value.words.insert(part.value.words.end(), whole.words.begin() + static_cast<std::ptrdiff_t>(word),
+                              whole.words.begin() + static_cast<std::ptrdiff_t>(word + words));
+    }
+    word += words;
+  }
+  if (part.value.words.empty()) {
+    throw Error(Outcome::cannot_debug, "'" + watch.expression +
+                                           "' cannot be taken out of a recording; print '" + name +
+                                           "', or one component of it");
+  }
+  return part;
+}
+
+}  // namespace
+
+HitValues valuesOfHit(Session& session, int x, int y, int hit, const PlaceSelection& place,
+                      const std::vector<std::string>& names) {
+  const Shader& shader = session.shader(Stage::fragment);
+  const instrumenter::Probe probe = probeAt(shader, place);
+  if (!probe.call_path.empty()) {
+    throw Error(Outcome::cannot_debug,
+                "--call and --hit do not go together; 'debug --pixel --hit' alone shows every call");
+  }
+  const std::vector<frontend::Watch> watches = watchesAt(shader, probe.statement, names);
+  const Session::Recorded recorded = recordPixel(session, x, y);
+  HitValues result;
+  result.hits = hitsOn(recorded, x, y);
+  result.hit = pickHit(result.hits, x, y, hit);
+  result.check = recorded.execution.check;
+  const auto visit = lastVisit(shader, recorded.layout,
+                               recorded.recording.threads[static_cast<std::size_t>(result.hit)], probe);
+  result.reached = visit.has_value();
+  for (const frontend::Watch& watch : watches) {
+    if (!visit) break;
+    const auto known = visit->known.find(watch.variable);
+    if (known == visit->known.end()) {
+      throw Error(Outcome::cannot_debug,
+                  "'" + watch.expression +
+                      "' is not in the recording, which holds what the shader itself sets; leave "
+                      "--hit out to see the visible fragment's");
+    }
+    result.values.push_back(partOf(shader, watch, known->second.value));
+  }
+  return result;
+}
+
+}  // namespace shadestep::session
