@@ -25,7 +25,7 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
         "nothing can be captured beside it.";
   } else if (capacity_ <= 0) {
     failure_ = "The program uses all " + std::to_string(target.max_draw_buffers) +
-               " draw buffers of this driver, so none is left to capture values in.";
+               " draw buffers of this driver (GL_MAX_DRAW_BUFFERS), so none is left to capture values in.";
   }
 
   if (draft.es() && shader.version < 300) draft.require("GL_EXT_draw_buffers");

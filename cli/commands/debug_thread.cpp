@@ -51,7 +51,7 @@ std::string whatHappened(const Step& step) {
   return text;
 }
 
-std::string summary(const ThreadRun& run) {
+std::string summary(const ThreadRun& run, int samples) {
   std::string text = run.discarded  ? "ended in a discard"
                      : run.complete ? "ran to its end"
                                     : "not yet at its end (without storage buffers each step costs a redraw)";
@@ -62,7 +62,7 @@ std::string summary(const ThreadRun& run) {
             : run.visible_hit >= 0 ? "hidden: the visible one is " + std::to_string(run.visible_hit)
                                    : "none of which is visible";
   } else if (!run.visible && !run.discarded) {
-    text += "; hidden by the fragment tests";
+    text += samples > 0 ? "; not on this sample (--sample)" : "; hidden by the fragment tests";
   }
   return text;
 }
@@ -75,7 +75,7 @@ std::string asText(const Shader& shader, const session::DrawStop& stop, const se
   text << "pixel " << run.x << "," << run.y << "  fragment shader of program " << facts.program << "  frame "
        << stop.frame << ", draw " << stop.draw << " (" << stop.call << ")\n"
        << facts.renderer << "  GLSL " << shader.version << "\n"
-       << withThousands(run.steps.size()) << " steps, " << summary(run) << "\n"
+       << withThousands(run.steps.size()) << " steps, " << summary(run, facts.samples) << "\n"
        << describe(run.check) << "\n\n"
        << "  step  line  iteration  " << padded("source", 56) << "  what changed\n";
   std::size_t number = 0;

@@ -27,13 +27,11 @@ std::string text(GLenum name) {
 
 // Why there is no program to debug, or "".
 std::string programReason(const DrawFacts& facts) {
-  if (facts.program == 0 && facts.pipeline != 0) {
-    return "the draw uses a program pipeline object, which cannot be debugged yet";
-  }
+  if (facts.program == 0 && facts.pipeline != 0) return "the draw's program pipeline has no fragment shader";
   if (facts.program == 0) return "the draw uses no GLSL program (fixed function or assembly programs)";
   GLint deleted = GL_FALSE;
   gl().GetProgramiv(facts.program, GL_DELETE_STATUS, &deleted);
-  if (deleted) {
+  if (deleted && facts.pipeline == 0) {
     return "the program was deleted while in use: putting another in its place would end it for good";
   }
   GLint linked = GL_FALSE;
@@ -137,9 +135,9 @@ wire::Stage stage(GLenum shader_type) {
   }
 }
 
-std::vector<std::unique_ptr<wire::ShaderStageT>> stages(const calls::LinkedProgram& linked) {
+std::vector<std::unique_ptr<wire::ShaderStageT>> stages(const std::vector<calls::LinkedShader>& shaders) {
   std::vector<std::unique_ptr<wire::ShaderStageT>> result;
-  for (const calls::LinkedShader& shader : linked.shaders) {
+  for (const calls::LinkedShader& shader : shaders) {
     auto entry = std::make_unique<wire::ShaderStageT>();
     entry->stage = stage(shader.type);
     entry->shader = shader.shader != 0 && gl().IsShader(shader.shader) ? shader.shader : 0;
@@ -153,6 +151,18 @@ std::vector<std::unique_ptr<wire::ShaderStageT>> stages(const calls::LinkedProgr
   return result;
 }
 
+// The shaders that the draw runs: of the current program, or of each pipeline stage's.
+std::vector<calls::LinkedShader> shadersOf(const DrawFacts& facts) {
+  if (facts.pipeline == 0) return facts.linked->shaders;
+  std::vector<calls::LinkedShader> shaders;
+  for (const replay::StageProgram& stage : facts.stages) {
+    for (const calls::LinkedShader& shader : calls::linkedProgram(stage.program)->shaders) {
+      if (shader.type == stage.stage) shaders.push_back(shader);
+    }
+  }
+  return shaders;
+}
+
 }  // namespace
 
 DrawFacts drawFacts(const calls::DrawCall& call) {
@@ -161,8 +171,14 @@ DrawFacts drawFacts(const calls::DrawCall& call) {
   const guard::ContextFacts& context = facts.context;
   const guard::SilenceGuard silence(context);  // some questions below are answered by errors
   if (context.atLeast(20, 20)) facts.program = static_cast<GLuint>(integer(GL_CURRENT_PROGRAM));
-  if (context.atLeast(41, 31) || context.has("GL_ARB_separate_shader_objects")) {
+  if (facts.program == 0 && context.programPipelines()) {
     facts.pipeline = static_cast<GLuint>(integer(GL_PROGRAM_PIPELINE_BINDING));
+  }
+  if (facts.pipeline != 0) {
+    facts.stages = replay::pipelineStages(facts.pipeline);
+    for (const replay::StageProgram& stage : facts.stages) {
+      if (stage.stage == GL_FRAGMENT_SHADER) facts.program = stage.program;
+    }
   }
   facts.linked = calls::linkedProgram(facts.program);
   facts.program_reason = programReason(facts);
@@ -188,7 +204,7 @@ wire::DrawT describe(const DrawFacts& facts) {
   draw.program = facts.program;
   draw.pipeline = facts.pipeline;
   draw.program_reason = facts.program_reason;
-  if (facts.program != 0) draw.stages = stages(*facts.linked);
+  if (facts.program != 0) draw.stages = stages(shadersOf(facts));
   draw.framebuffer = facts.target.framebuffer;
   draw.target_reason = facts.target.reason;
   draw.viewport.resize(4);

@@ -7,6 +7,7 @@
 #include "interceptor/calls/tracking.h"
 #include "interceptor/capture/draw_target.h"
 #include "interceptor/guard/context_facts.h"
+#include "interceptor/replay/pipeline.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
@@ -14,8 +15,10 @@ namespace shadestep::agent {
 // The facts of one stop, asked once.
 struct DrawFacts {
   guard::ContextFacts context;
-  GLuint program = 0, pipeline = 0;
-  std::string program_reason;  // why there is nothing to debug ("" if there is)
+  GLuint program = 0;                        // the current one, or the one of the pipeline's fragment stage
+  GLuint pipeline = 0;                       // 0: a program is current
+  std::vector<replay::StageProgram> stages;  // with a pipeline: where each stage comes from
+  std::string program_reason;                // why there is nothing to debug ("" if there is)
   std::shared_ptr<const calls::LinkedProgram> linked;
   capture::DrawTarget target;  // its reason also says why this draw cannot be replayed
 };

@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <set>
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/state_digest.h"
@@ -112,8 +113,12 @@ std::vector<int> locations(const std::vector<capture::CaptureBuffer>& captures) 
 
 Refusal useProgram(const replay::ProgramCopy& copy, const wire::ExecuteT& request) {
   gl().UseProgram(copy.program);
-  replay::selectSubroutines(copy.subroutines);
   const std::string problem = replay::setUniforms(copy.program, request.uniforms);
+  if (copy.pipeline != 0) {
+    gl().UseProgram(0);
+    gl().BindProgramPipeline(copy.pipeline);
+  }
+  replay::selectSubroutines(copy.subroutines);
   return problem.empty() ? Refusal{} : guard::unsupported(problem);
 }
 
@@ -184,7 +189,7 @@ OrRefusal<wire::PreparedT> Stop::prepare(const wire::PrepareT& request) {
     return guard::unsupported(facts().target.reason);
   }
   const guard::ProgramGuard program(facts().context);
-  const replay::Original original{facts().program, *facts().linked, facts().target};
+  const replay::Original original{facts().program, facts().stages, *facts().linked, facts().target};
   auto result = replay::copyProgram(facts().context, original, request, shaders_);
   if (const auto* refusal = std::get_if<Refusal>(&result)) return *refusal;
   auto copy = std::get<std::unique_ptr<replay::ProgramCopy>>(std::move(result));
@@ -397,8 +402,12 @@ Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
   if (!memory_) {
     memory_.emplace(context);
     check_.emplace(context);
-    const guard::WritableBindings own = replay::writableBindings(context, facts().program);
-    if (Refusal refusal = memory_->save(own); !refusal.text.empty()) return refusal;
+    std::set<GLuint> programs = {facts().program};
+    for (const replay::StageProgram& stage : facts().stages) programs.insert(stage.program);
+    for (const GLuint program : programs) {
+      if (Refusal refusal = memory_->save(replay::writableBindings(context, program)); !refusal.text.empty())
+        return refusal;
+    }
   }
   guard::WritableBindings bindings = replay::writableBindings(context, copy.program);
   if (copy.storage_binding >= 0) bindings.storage.erase(static_cast<GLuint>(copy.storage_binding));

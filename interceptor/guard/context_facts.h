@@ -41,6 +41,7 @@ struct ContextFacts {
   bool pixelBuffers() const { return atLeast(21, 30) || has("GL_ARB_pixel_buffer_object"); }
   bool srgbSwitch() const { return atLeast(30, 0) || has("GL_ARB_framebuffer_sRGB"); }
   bool debugOutput() const { return atLeast(43, 32) || has("GL_KHR_debug"); }
+  bool programPipelines() const { return atLeast(41, 31) || has("GL_ARB_separate_shader_objects"); }
   bool layeredFramebuffers() const { return atLeast(32, 32); }
   bool framebufferDefaults() const { return atLeast(43, 31) || has("GL_ARB_framebuffer_no_attachments"); }
   bool multisampleTextures() const { return atLeast(32, 31) || has("GL_ARB_texture_multisample"); }

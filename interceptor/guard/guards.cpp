@@ -91,7 +91,10 @@ void FramebufferGuard::clipAsProgram() const {
 // ---- programs
 // ------------------------------------------------------------------------------------------------
 
-ProgramGuard::ProgramGuard(const ContextFacts& facts) : program_(binding(GL_CURRENT_PROGRAM)) {
+ProgramGuard::ProgramGuard(const ContextFacts& facts)
+    : pipelines_(facts.programPipelines()),
+      program_(binding(GL_CURRENT_PROGRAM)),
+      pipeline_(pipelines_ ? binding(GL_PROGRAM_PIPELINE_BINDING) : 0) {
   if (facts.pausesTransformFeedback()) {
     GLboolean active = GL_FALSE;
     GLboolean paused = GL_FALSE;
@@ -102,10 +105,12 @@ ProgramGuard::ProgramGuard(const ContextFacts& facts) : program_(binding(GL_CURR
       paused_ = true;
     }
   }
-  if (!facts.subroutines() || program_ == 0) return;
+  if (!facts.subroutines()) return;
   for (const GLenum stage : kStages) {
+    const GLuint program = stageProgram(stage);
+    if (program == 0) continue;
     GLint locations = 0;
-    gl().GetProgramStageiv(program_, stage, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS, &locations);
+    gl().GetProgramStageiv(program, stage, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS, &locations);
     if (locations <= 0) continue;
     StageSubroutines saved{stage, std::vector<GLuint>(static_cast<std::size_t>(locations))};
     for (GLint i = 0; i < locations; ++i)
@@ -120,7 +125,16 @@ ProgramGuard::~ProgramGuard() {
   if (paused_) gl().ResumeTransformFeedback();
 }
 
+// The program that a stage of the draw comes from, 0 = none.
+GLuint ProgramGuard::stageProgram(GLenum stage) const {
+  if (program_ != 0 || pipeline_ == 0) return program_;
+  GLint program = 0;
+  gl().GetProgramPipelineiv(pipeline_, stage, &program);
+  return static_cast<GLuint>(program);
+}
+
 void ProgramGuard::makeCurrent() const {
+  if (pipelines_) gl().BindProgramPipeline(pipeline_);
   gl().UseProgram(program_);
   for (const StageSubroutines& saved : subroutines_) {
     gl().UniformSubroutinesuiv(saved.stage, static_cast<GLsizei>(saved.indices.size()), saved.indices.data());

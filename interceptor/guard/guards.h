@@ -48,8 +48,8 @@ class FramebufferGuard {
   GLuint draw_ = 0, read_ = 0, renderbuffer_ = 0;
 };
 
-// The current program with its subroutine selection, which glUseProgram forgets; active transform feedback
-// pauses meanwhile.
+// The current program, or program pipeline, with its subroutine selection, which glUseProgram forgets; active
+// transform feedback pauses meanwhile.
 class ProgramGuard {
  public:
   explicit ProgramGuard(const ContextFacts&);
@@ -62,7 +62,9 @@ class ProgramGuard {
     GLenum stage;
     std::vector<GLuint> indices;
   };
-  GLuint program_ = 0;
+  GLuint stageProgram(GLenum stage) const;
+  bool pipelines_;
+  GLuint program_ = 0, pipeline_ = 0;
   bool paused_ = false;
   std::vector<StageSubroutines> subroutines_;
 };

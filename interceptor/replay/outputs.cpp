@@ -26,7 +26,7 @@ Refusal checkPlace(const guard::ContextFacts& facts, const std::set<int>& taken,
   if (location < facts.max_draw_buffers) return {};
   return guard::limit(
       std::to_string(captures) + " capture buffers beside the program's own are more than the " +
-      std::to_string(facts.max_draw_buffers) + " draw buffers of this driver; capture less at once");
+      std::to_string(facts.max_draw_buffers) + " draw buffers of this driver (GL_MAX_DRAW_BUFFERS); capture less at once");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/replay/outputs.h"
+#include "interceptor/replay/writable.h"
 
 namespace shadestep::replay {
 namespace {
@@ -142,7 +143,8 @@ void copyFeedbackVaryings(GLuint original, GLuint copy) {
 // ------------------------------------------------------------------------------------------
 
 // Gives the debugger's storage block a binding that no block of the program has.
-Refusal placeStorageBlock(const guard::ContextFacts& facts, const std::string& block, ProgramCopy& copy) {
+Refusal placeStorageBlock(const guard::ContextFacts& facts, const Original& original,
+                          const std::string& block, ProgramCopy& copy) {
   if (block.empty()) return {};
   if (!facts.storageBuffers()) {
     return guard::unsupported(
@@ -163,6 +165,11 @@ Refusal placeStorageBlock(const guard::ContextFacts& facts, const std::string& b
   for (GLuint i = 0; i < static_cast<GLuint>(blocks); ++i) {
     if (i != index) taken.insert(bindingOf(i));
   }
+  for (const StageProgram& other : original.pipeline) {
+    if (other.program == original.program) continue;
+    for (const GLuint binding : writableBindings(facts, other.program).storage)
+      taken.insert(static_cast<int>(binding));
+  }
   if (!dispatch::available("glShaderStorageBlockBinding") || facts.es) {  // the text has chosen it
     copy.storage_binding = bindingOf(index);
     if (taken.count(copy.storage_binding) == 0) return {};
@@ -170,7 +177,7 @@ Refusal placeStorageBlock(const guard::ContextFacts& facts, const std::string& b
   }
   int binding = facts.max_storage_bindings - 1;
   while (binding >= 0 && taken.count(binding) != 0) --binding;
-  if (binding < 0) return guard::limit("the program uses all storage buffer bindings of this driver");
+  if (binding < 0) return guard::limit("the program uses all storage buffer bindings of this driver (GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS)");
   gl().ShaderStorageBlockBinding(copy.program, index, static_cast<GLuint>(binding));
   copy.storage_binding = binding;
   return {};
@@ -270,6 +277,8 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
                                          : attachReplayStages(original, request, cache, copy.program);
   if (!attached.text.empty()) return attached;
 
+  const bool in_pipeline = !original.pipeline.empty() && !copy.covering;
+  if (in_pipeline) gl().ProgramParameteri(copy.program, GL_PROGRAM_SEPARABLE, GL_TRUE);
   if (!copy.covering) {
     bindAttributes(original, copy.program);
     copyFeedbackVaryings(original.program, copy.program);
@@ -286,10 +295,12 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
     // While the original is current: its choice is state of the context.
     copy.subroutines = subroutineChoices(facts, original.program, copy.program);
   }
+  if (in_pipeline) copy.pipeline = copyPipeline(original.pipeline, original.program, copy.program);
   const std::string not_copied = copyUniforms(facts, original.program, copy.program);
   if (!not_copied.empty()) return guard::unsupported(not_copied);
   // After the program's own blocks have got their bindings: it takes one that is left.
-  if (Refusal failed = placeStorageBlock(facts, request.storage_block, copy); !failed.text.empty()) {
+  if (Refusal failed = placeStorageBlock(facts, original, request.storage_block, copy);
+      !failed.text.empty()) {
     return failed;
   }
   return {};
@@ -311,6 +322,7 @@ ShaderCache::~ShaderCache() {
 }
 
 ProgramCopy::~ProgramCopy() {
+  if (pipeline != 0) gl().DeleteProgramPipelines(1, &pipeline);
   if (program != 0) gl().DeleteProgram(program);
 }
 

@@ -15,6 +15,7 @@
 #include "interceptor/guard/refusal.h"
 #include "interceptor/registry/gl_enums.h"
 #include "interceptor/registry/gl_types.h"
+#include "interceptor/replay/pipeline.h"
 #include "interceptor/replay/uniforms.h"
 #include "wire/messages_generated.h"
 
@@ -42,10 +43,11 @@ struct ProgramCopy {
   ProgramCopy& operator=(const ProgramCopy&) = delete;
 
   GLuint program = 0;
+  GLuint pipeline = 0;  // to bind, where the original's is a pipeline; 0: make the program current
   bool covering = false;
   std::set<int> output_locations;  // of the program's own outputs
   int colour_outputs = 0;          // with covering: colour buffers that its target needs
-  int position_attribute = -1;  // with covering: location of the attribute to feed, -1 = none
+  int position_attribute = -1;     // with covering: location of the attribute to feed, -1 = none
   std::vector<capture::CaptureBuffer> captures;  // in the order of Prepare.captures
   bool dual_source = false;                      // an output is the second source of blending
   int storage_binding = -1;                      // -1 = no storage block alive
@@ -56,6 +58,7 @@ struct ProgramCopy {
 
 struct Original {
   GLuint program = 0;
+  const std::vector<StageProgram>& pipeline;  // empty: the program is current
   const calls::LinkedProgram& linked;
   const capture::DrawTarget& target;
 };

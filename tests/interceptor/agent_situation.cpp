@@ -125,6 +125,43 @@ int pipeline() {
   return drawnEverywhere() ? 0 : 1;
 }
 
+// Both stages have a uniform of the same name, with another value; the vertex stage writes memory.
+int separateStages() {
+  const char* vertex_text =
+      "#version 430 compatibility\nout gl_PerVertex { vec4 gl_Position; };\n"
+      "layout(location = 0) out float half_of_it;\nuniform float value;\n"
+      "layout(std430, binding = 3) buffer Count { uint drawn[3]; };\n"
+      "void main() { atomicAdd(drawn[gl_VertexID], 1u); half_of_it = value * 2.0; gl_Position = gl_Vertex; "
+      "}\n";
+  const char* fragment_text =
+      "#version 430 compatibility\nlayout(location = 0) in float half_of_it;\nuniform float value;\n"
+      "out vec4 color;\nvoid main() { color = vec4(half_of_it + value - 7.0); }\n";
+  const GLuint vertex = glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &vertex_text);
+  const GLuint fragment = glCreateShaderProgramv(GL_FRAGMENT_SHADER, 1, &fragment_text);
+  const auto set = opened<PFNGLPROGRAMUNIFORM1FPROC>("glProgramUniform1f");
+  set(vertex, glGetUniformLocation(vertex, "value"), 0.25F);
+  set(fragment, glGetUniformLocation(fragment, "value"), 7.0F);
+  const GLuint zeros[3] = {};
+  GLuint buffer = 0;
+  glGenBuffers(1, &buffer);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, buffer);
+  glBufferData(GL_SHADER_STORAGE_BUFFER, sizeof zeros, zeros, GL_STATIC_READ);
+  GLuint name = 0;
+  glGenProgramPipelines(1, &name);
+  glUseProgramStages(name, GL_VERTEX_SHADER_BIT, vertex);
+  glUseProgramStages(name, GL_FRAGMENT_SHADER_BIT, fragment);
+  glBindProgramPipeline(name);
+  draw();
+  GLint bound = 0;
+  GLint program = 77;
+  glGetIntegerv(GL_PROGRAM_PIPELINE_BINDING, &bound);
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  GLuint drawn[3] = {};
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof drawn, drawn);
+  const bool once = drawn[0] == 1 && drawn[1] == 1 && drawn[2] == 1;
+  return drawnEverywhere() && once && bound == static_cast<GLint>(name) && program == 0 ? 0 : 1;
+}
+
 int severalShaders() {
   glUseProgram(link(kVertex, {"#version 330 compatibility\nvec4 halves() { return vec4(0.5); }\n",
                               "#version 330 compatibility\nvec4 halves();\nout vec4 color;\n"
@@ -375,6 +412,7 @@ int main(int argc, char** argv) {
       {"condition", condition},
       {"no-rasterizer", noRasterizer},
       {"pipeline", pipeline},
+      {"separate-stages", separateStages},
       {"several-shaders", severalShaders},
       {"feedback", feedback},
       {"subroutines", subroutines},

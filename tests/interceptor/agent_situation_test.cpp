@@ -7,10 +7,10 @@ namespace agent_test {
 namespace {
 
 TEST(Situations, goWellWithoutADebugger) {
-  for (const char* name :
-       {"ordinary", "deleted-program", "fixed-function", "immediate-mode", "display-list", "query",
-        "condition", "no-rasterizer", "pipeline", "several-shaders", "feedback", "subroutines",
-        "storage-block", "memory", "clock-in-memory", "multisampled-image", "debug-messages", "forked"}) {
+  for (const char* name : {"ordinary", "deleted-program", "fixed-function", "immediate-mode", "display-list",
+                           "query", "condition", "no-rasterizer", "pipeline", "separate-stages",
+                           "several-shaders", "feedback", "subroutines", "storage-block", "memory",
+                           "clock-in-memory", "multisampled-image", "debug-messages", "forked"}) {
     Scene scene({SITUATION, name}, {});
     EXPECT_EQ(scene.status(), 0) << name;
   }
@@ -73,8 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Situations, Refusals,
                          testing::Values(Refused{"deleted-program", "deleted while in use"},
                                          Refused{"fixed-function", "no GLSL program"},
                                          Refused{"query", "query"}, Refused{"condition", "condition"},
-                                         Refused{"no-rasterizer", "GL_RASTERIZER_DISCARD"},
-                                         Refused{"pipeline", "pipeline"}),
+                                         Refused{"no-rasterizer", "GL_RASTERIZER_DISCARD"}),
                          [](const auto& one) {
                            std::string name = one.param.situation;
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -150,6 +149,15 @@ TEST(Situations, oneTextStandsForAllShadersOfTheStage) {
   const auto words = session.values<std::uint32_t>(executed.attachments.at(0));
   EXPECT_EQ(words.at(0), word(0.5F));
   end(session);
+}
+
+TEST(Situations, aPipelinesFragmentStageIsReplacedAlone) {
+  for (const auto& [situation, expression] :
+       {std::pair("pipeline", "0.5"), std::pair("separate-stages", "half_of_it + value - 7.0")}) {
+    Session session(SITUATION, situation, "");
+    expectHalfEverywhere(session, expression);
+    end(session);
+  }
 }
 
 TEST(Situations, subroutinesStayChosen) {

@@ -1,0 +1,170 @@
+// Which fragments are looked at: several on one pixel, tests forced, layers and samples. Truth: what
+// several_hits.cpp says of its fragments, in its depths and colours.
+#include <gtest/gtest.h>
+
+#include "launch.h"
+
+namespace shadestep::test {
+namespace {
+
+const std::string& hits() {
+  static const std::string path = binary("programs/several-hits");
+  return path;
+}
+
+// The thread that --pixel with these options follows.
+Json threadAt(const std::string& pixel, std::vector<std::string> options) {
+  const Scratch scratch;
+  std::vector<std::string> arguments = {"debug", "--pixel", pixel, "--json"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Finished run = scratch.shadestep(arguments, {hits()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["check"]["outputs"], "identical");
+  return run.json();
+}
+
+int visibleHit(const std::string& pixel, const std::vector<std::string>& options) {
+  const Json thread = threadAt(pixel, options)["thread"];
+  EXPECT_EQ(thread["hits"], 5);
+  return thread["visible_hit"].is_null() ? -1 : thread["visible_hit"].get<int>();
+}
+
+TEST(Hits, AreNumberedInTheirOrderAndTheVisibleOneIsNamed) {
+  const Json visible = threadAt("40,20", {});
+  EXPECT_EQ(visible["thread"]["hit"], 1);
+  EXPECT_EQ(visible["thread"]["visible"], true);
+  for (int hit = 0; hit < 5; ++hit) {
+    const Json run = threadAt("40,20", {"--hit", std::to_string(hit)});
+    EXPECT_EQ(run["thread"]["hit"], hit);
+    EXPECT_EQ(run["thread"]["visible"], hit == 1);
+    EXPECT_EQ(run["thread"]["visible_hit"], 1);
+    EXPECT_EQ(run["outcome"], hit == 3 ? "discarded" : "finished");
+    EXPECT_EQ(run["steps"][0]["changed"]["value"]["value"], 100.0 * hit + 40);
+  }
+  const Scratch scratch;
+  const std::string text = scratch.shadestep({"debug", "--pixel", "40,20", "--hit", "2"}, {hits()}).out;
+  EXPECT_NE(text.find("fragment 2 of 5 on the pixel (--hit 0 to 4), hidden: the visible one is 1"),
+            std::string::npos)
+      << text;
+}
+
+TEST(Hits, ThatAreNotThereAreRefused) {
+  const Scratch scratch;
+  const Finished run = scratch.shadestep({"debug", "--pixel", "40,20", "--hit", "5"}, {hits()});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.err.find("0 to 4"), std::string::npos) << run.err;
+}
+
+TEST(Hits, HaveValuesAtAPlace) {
+  const Scratch scratch;
+  const auto look = [&](int hit, const std::string& line) {
+    return scratch.shadestep({"debug", "--at", line, "--pixel", "40,20", "--hit", std::to_string(hit),
+                              "--print", "value,colour.y", "--json"},
+                             {hits()});
+  };
+  for (const int hit : {0, 1, 2, 4}) {
+    // Before the last statement: no colour yet.
+    const Finished run =
+        scratch.shadestep({"debug", "--at", "12", "--after", "--pixel", "40,20", "--hit", std::to_string(hit),
+                           "--print", "value,colour.z,colour", "--json"},
+                          {hits()});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Json found = run.json();
+    EXPECT_EQ(found["thread"]["visible"], hit == 1);
+    EXPECT_EQ(found["values"]["value"]["value"], 100.0 * hit + 40);
+    EXPECT_FLOAT_EQ(found["values"]["colour.z"]["value"].get<float>(), 0.1F * static_cast<float>(hit));
+    EXPECT_EQ(found["values"]["colour"]["value"].size(), 4u);
+    EXPECT_EQ(found["check"]["outputs"], "identical");
+  }
+  EXPECT_EQ(look(1, "9").status, 3);  // inside `if (which == 3)`
+  const Finished discarded = scratch.shadestep(
+      {"debug", "--at", "9", "--pixel", "40,20", "--hit", "3", "--print", "value"}, {hits()});
+  EXPECT_EQ(discarded.status, 0) << discarded.err;
+  EXPECT_NE(discarded.out.find("discarded later"), std::string::npos);
+  EXPECT_NE(discarded.out.find("value = -1"), std::string::npos);
+  const Finished all = scratch.shadestep({"debug", "--at", "12", "--hit", "1", "--print", "value"}, {hits()});
+  EXPECT_EQ(all.status, 2);
+}
+
+TEST(ForcedTests, DecideOnWhichFragmentIsVisible) {
+  EXPECT_EQ(visibleHit("40,20", {}), 1);
+  EXPECT_EQ(visibleHit("40,20", {"--depth-test", "off"}), 2);
+  EXPECT_EQ(visibleHit("40,20", {"--alpha-test", "off"}), 4);
+  EXPECT_EQ(visibleHit("40,20", {"--depth-test", "off", "--alpha-test", "off"}), 4);
+  EXPECT_EQ(visibleHit("5,20", {}), -1);
+  EXPECT_EQ(visibleHit("5,20", {"--stencil-test", "off"}), 1);
+  EXPECT_EQ(visibleHit("5,20", {"--buffers", "clear"}), 1);
+  EXPECT_EQ(threadAt("5,20", {"--stencil-test", "off"})["fragments"]["stencil_test"], "off");
+  EXPECT_TRUE(threadAt("5,20", {})["fragments"].is_null());
+}
+
+TEST(ForcedTests, HoldForAllThreadsToo) {
+  const Scratch scratch;
+  const auto launched = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"debug", "--at", "5", "--print", "which", "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Json found = scratch.shadestep(arguments, {hits()}).json();
+    EXPECT_EQ(found["check"]["outputs"], "identical");
+    return std::pair(found["threads"]["launched"].get<int>(), found["values"]["which"]["max"].get<double>());
+  };
+  EXPECT_EQ(launched({}), std::pair(48 * 64, 1.0));
+  EXPECT_EQ(launched({"--stencil-test", "off"}), std::pair(64 * 64, 1.0));
+  EXPECT_EQ(launched({"--depth-test", "off"}), std::pair(48 * 64, 2.0));
+  EXPECT_EQ(launched({"--buffers", "clear"}), std::pair(64 * 64, 1.0));
+}
+
+TEST(ForcedTests, ChangeTheReplayAndNotTheProgram) {
+  const auto drawn = [](const std::vector<std::string>& options) {
+    std::vector<std::string> all = options;
+    all.emplace_back("--continue");  // the program's own check of its target decides on the exit status
+    return threadAt("40,20", all)["outputs"][0];
+  };
+  const Json kept = drawn({});  // 0.4 of red before; two fragments
+  EXPECT_NEAR(kept[0].get<double>(), 0.4, 0.01);
+  EXPECT_NEAR(kept[1].get<double>(), 0.4, 0.01);
+  const Json unblended = drawn({"--blend", "off"});
+  EXPECT_NEAR(unblended[0].get<double>(), 0.0, 0.01);
+  EXPECT_NEAR(unblended[1].get<double>(), 0.2, 0.01);
+  const Json cleared = drawn({"--buffers", "clear"});
+  EXPECT_NEAR(cleared[0].get<double>(), 0.8, 0.01);
+  EXPECT_NEAR(cleared[1].get<double>(), 0.4, 0.01);
+}
+
+TEST(ForcedTests, ThatTheContextLacksAreRefused) {
+  const Scratch scratch;
+  const Finished run =
+      scratch.shadestep({"debug", "--pixel", "5,5", "--alpha-test", "on"}, {binary("programs/es-target")});
+  EXPECT_EQ(run.status, 4);
+  EXPECT_NE(run.err.find("no alpha test in OpenGL ES"), std::string::npos) << run.err;
+}
+
+// The planes themselves are tested with the agent (agent_target_test.cpp).
+TEST(Planes, AreChosenByLayerAndSample) {
+  const Scratch scratch;
+  const auto look = [&](const std::string& scene, const std::string& option, const std::string& number) {
+    return scratch.shadestep(
+        {"debug", "--draw", "1", "--at", "4", "--after", "--print", "color", option, number, "--json"},
+        {binary("agent-target"), scene});
+  };
+  for (const char* sample : {"0", "1", "2", "3"}) {
+    const Finished run = look("sample-shading", "--sample", sample);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.json()["values"]["color"]["max"][2], std::stod(sample));
+    EXPECT_EQ(run.json()["check"]["outputs"], "identical");
+  }
+  for (const char* layer : {"1", "2"}) {
+    const Finished run = look("layered-array", "--layer", layer);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.json()["values"]["color"]["min"][2], std::stod(layer));
+    EXPECT_EQ(run.json()["values"]["color"]["max"][2], std::stod(layer));
+  }
+  const Finished none = look("sample-shading", "--sample", "4");
+  EXPECT_EQ(none.status, 3);
+  EXPECT_NE(none.err.find("no sample 4; the draw's target has 4: 0 to 3"), std::string::npos) << none.err;
+  const Finished flat = look("sample-shading", "--layer", "1");
+  EXPECT_EQ(flat.status, 3);
+  EXPECT_NE(flat.err.find("no layers"), std::string::npos) << flat.err;
+}
+
+}  // namespace
+}  // namespace shadestep::test
