@@ -33,7 +33,7 @@ TEST(DriverLimits, WithoutAStorageBlockLeftAPixelIsFollowedByProbes) {
 
 TEST(DriverLimits, WithoutADrawBufferLeftTheLimitIsNamed) {
   const Scratch scratch;
-  const Finished run = scratch.shadestep({"debug", "--at", "11", "--print", "sum"}, {program(), "outputs"});
+  const Finished run = scratch.shadestep({"debug", "--at", "14", "--print", "sum"}, {program(), "outputs"});
   EXPECT_EQ(run.status, 4);
   EXPECT_NE(run.err.find("GL_MAX_DRAW_BUFFERS"), std::string::npos) << run.err;
 }

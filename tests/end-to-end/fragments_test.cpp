@@ -63,9 +63,8 @@ TEST(Hits, HaveValuesAtAPlace) {
                              {hits()});
   };
   for (const int hit : {0, 1, 2, 4}) {
-    // Before the last statement: no colour yet.
     const Finished run =
-        scratch.shadestep({"debug", "--at", "12", "--after", "--pixel", "40,20", "--hit", std::to_string(hit),
+        scratch.shadestep({"debug", "--at", "13", "--after", "--pixel", "40,20", "--hit", std::to_string(hit),
                            "--print", "value,colour.z,colour", "--json"},
                           {hits()});
     ASSERT_EQ(run.status, 0) << run.err;
@@ -78,11 +77,11 @@ TEST(Hits, HaveValuesAtAPlace) {
   }
   EXPECT_EQ(look(1, "9").status, 3);  // inside `if (which == 3)`
   const Finished discarded = scratch.shadestep(
-      {"debug", "--at", "9", "--pixel", "40,20", "--hit", "3", "--print", "value"}, {hits()});
+      {"debug", "--at", "10", "--pixel", "40,20", "--hit", "3", "--print", "value"}, {hits()});
   EXPECT_EQ(discarded.status, 0) << discarded.err;
   EXPECT_NE(discarded.out.find("discarded later"), std::string::npos);
   EXPECT_NE(discarded.out.find("value = -1"), std::string::npos);
-  const Finished all = scratch.shadestep({"debug", "--at", "12", "--hit", "1", "--print", "value"}, {hits()});
+  const Finished all = scratch.shadestep({"debug", "--at", "13", "--hit", "1", "--print", "value"}, {hits()});
   EXPECT_EQ(all.status, 2);
 }
 
@@ -101,7 +100,7 @@ TEST(ForcedTests, DecideOnWhichFragmentIsVisible) {
 TEST(ForcedTests, HoldForAllThreadsToo) {
   const Scratch scratch;
   const auto launched = [&](std::vector<std::string> options) {
-    std::vector<std::string> arguments = {"debug", "--at", "5", "--print", "which", "--json"};
+    std::vector<std::string> arguments = {"debug", "--at", "6", "--print", "which", "--json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Json found = scratch.shadestep(arguments, {hits()}).json();
     EXPECT_EQ(found["check"]["outputs"], "identical");

@@ -5,7 +5,7 @@
 #include <cmath>
 
 int main() {
-  OsmesaContext context;
+  const OsmesaContext context;
   const GLuint program = linkProgram(R"glsl(#version 330 compatibility
 flat out int which;
 void main()
@@ -31,6 +31,17 @@ void main()
 }
 )glsl");
   glUseProgram(program);
+  GLuint buffers[2];
+  GLuint framebuffer = 0;
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glGenRenderbuffers(2, buffers);
+  glBindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, kSize, kSize);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+  glBindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, kSize, kSize);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
   glClearColor(0.4F, 0, 0, 0);
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
@@ -50,8 +61,10 @@ void main()
   glBlendFunc(GL_ONE, GL_ONE);
   glDrawArraysInstanced(GL_TRIANGLES, 0, 3, 5);
 
-  const std::array<int, 4> left = context.pixel(5, 20);
-  const std::array<int, 4> right = context.pixel(40, 20);
+  GLubyte left[4] = {};
+  GLubyte right[4] = {};
+  glReadPixels(5, 20, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, left);
+  glReadPixels(40, 20, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, right);
   if (left[0] != 102 || left[1] != 0) fail("the stencil test let something through");
   if (right[0] != 102 || right[1] != 102 || std::abs(right[2] - 26) > 1) fail("not two fragments were drawn");
 }
