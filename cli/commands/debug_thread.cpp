@@ -62,7 +62,7 @@ std::string summary(const ThreadRun& run, int samples) {
             : run.visible_hit >= 0 ? "hidden: the visible one is " + std::to_string(run.visible_hit)
                                    : "none of which is visible";
   } else if (!run.visible && !run.discarded) {
-    text += samples > 0 ? "; not on this sample (--sample)" : "; hidden by the fragment tests";
+    text += samples > 0 ? "; hidden, or not on this sample (--sample)" : "; hidden by the fragment tests";
   }
   return text;
 }
