@@ -177,7 +177,10 @@ Refusal placeStorageBlock(const guard::ContextFacts& facts, const Original& orig
   }
   int binding = facts.max_storage_bindings - 1;
   while (binding >= 0 && taken.count(binding) != 0) --binding;
-  if (binding < 0) return guard::limit("the program uses all storage buffer bindings of this driver (GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS)");
+  if (binding < 0)
+    return guard::limit(
+        "the program uses all storage buffer bindings of this driver "
+        "(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS)");
   gl().ShaderStorageBlockBinding(copy.program, index, static_cast<GLuint>(binding));
   copy.storage_binding = binding;
   return {};
