@@ -61,10 +61,10 @@ int measure(const std::vector<std::string>& command) {
     for (const std::size_t probes : {1, 2, 4, 8, 16}) {
       windows.emplace_back(
           session,
-          session::probesAround(stepper.shader(), session::probeAt(stepper.position()), names, probes));
+          session::probesAround(stepper.shader(), session::probeAt(stepper.shader(), stepper.position()), names, probes));
       const std::size_t index = windows.size() - 1;
       measures.push_back({"window of " + std::to_string(probes) + ": draw", [&, index] {
-                            windows[index].valuesAt(session::probeAt(stepper.position()));
+                            windows[index].valuesAt(session::probeAt(stepper.shader(), stepper.position()));
                             return Milliseconds(windows[index].drawTime()).count();
                           }});
     }

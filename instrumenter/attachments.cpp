@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "instrumenter/constructs/discard.h"
 #include "instrumenter/constructs/fragment_outputs.h"
+#include "instrumenter/constructs/main.h"
 #include "instrumenter/helpers/helpers.h"
+#include "instrumenter/storage.h"
 #include "instrumenter/words.h"
 
 namespace shadestep::instrumenter {
@@ -35,6 +38,7 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
   const bool bits = shader.version >= 130 && (draft.es() || shader.version >= 330 || target.bit_encoding);
   layout_.carrier = !frag_data_ && bits ? Carrier::uint_attachments : Carrier::float_attachments;
   if (frag_data_) layout_.first_frag_data = target.used_draw_buffers;
+  storage_ = noStorage(shader, target).empty();
 }
 
 bool Attachments::add(const std::string& name, const Type& type) {
@@ -91,6 +95,38 @@ std::string Attachments::assign(const std::vector<Field>& fields, std::uint32_t 
 
 std::string Attachments::clear(std::uint32_t mark) const {
   return assignWords({markWord(mark)}, layout_.attachments());
+}
+
+void Attachments::frame(const std::string& start, const std::string& end) {
+  wrapMain(draft_, start, end + write());
+  if (!storage_ || !draft_.shader().traits.uses_discard) return;
+  declareDiscarded();
+  wrapDiscards(draft_, end + appendDiscarded());
+}
+
+void Attachments::declareDiscarded() {
+  requireStorage(draft_);
+  layout_.discarded_block = draft_.name("Discarded");
+  layout_.discarded_words = 4 * (1 + layout_.attachments());
+  const bool floats = layout_.carrier == Carrier::float_attachments;
+  draft_.declare(inStorage(draft_, "layout(std430) buffer " + layout_.discarded_block + " { " +
+                                       draft_.highp() + "int " + draft_.name("ended") + ", " +
+                                       draft_.name("listed") + "; " + draft_.highp() +
+                                       (floats ? "vec4 " : "uvec4 ") + draft_.name("discarded") + "[]; };"));
+}
+
+std::string Attachments::appendDiscarded() const {
+  const bool floats = layout_.carrier == Carrier::float_attachments;
+  const std::string order = draft_.name("order"), ended = draft_.name("ended");
+  const std::string list =
+      draft_.name("discarded[") + order + " * " + std::to_string(1 + layout_.attachments()) + " + ";
+  std::string text = "  " + draft_.highp() + "int " + order + " = atomicAdd(" + ended + ", 1);\n  if (" +
+                     order + " < " + draft_.name("listed") + ") {\n    " + list + "0] = ";
+  text += floats ? "vec4(floor(gl_FragCoord.xy), gl_FragCoord.z, 1.0);\n"
+                 : "uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u);\n";
+  for (int i = 0; i < layout_.attachments(); ++i)
+    text += "    " + list + std::to_string(i + 1) + "] = " + buffer(i) + ";\n";
+  return text + "  }\n";
 }
 
 std::string Attachments::write() const {

@@ -5,6 +5,9 @@
 //   uvec4 sd_words0;  out uvec4 sd_capture0;          (or vec4 and gl_FragData[first_frag_data])
 //   ... sd_words0 = uvec4(3u, floatBitsToUint(a.x), floatBitsToUint(a.y), 0u) ...
 //   sd_capture0 = sd_words0;
+//
+// Threads that end in a discard leave nothing there: they append their words to a list in a storage block,
+// where the driver has those (AttachmentLayout::discarded_block).
 #pragma once
 
 #include <string>
@@ -35,6 +38,10 @@ class Attachments {
   std::string assign(const std::vector<Field>& fields, std::uint32_t mark,
                      const std::vector<std::string>& values) const;
   std::string clear(std::uint32_t mark) const;
+  // The frame of a thread that captures, around the shader's own main: complete GLSL statements for its start
+  // and for each of its ends, where the words are then handed over. To be called once, before the functions
+  // along a call path are cloned.
+  void frame(const std::string& start, const std::string& end);
   // GLSL statements that write the buffered words to the outputs.
   std::string write() const;
 
@@ -45,14 +52,17 @@ class Attachments {
   std::string assignWords(const std::vector<std::string>& words, int attachments) const;
   std::string unrounded(const std::string& words) const;
   std::string markWord(std::uint32_t mark) const;
+  void declareDiscarded();
+  std::string appendDiscarded() const;
   std::string buffer(int index) const { return draft_.name("words" + std::to_string(index)); }
 
   Draft& draft_;
   std::string failure_;
   AttachmentLayout layout_;
   bool frag_data_ = false;
-  int capacity_ = 0;  // words
-  int widest_ = 1;    // of the overlays so far
+  bool storage_ = false;  // can a storage block be declared?
+  int capacity_ = 0;      // words
+  int widest_ = 1;        // of the overlays so far
   int used_draw_buffers_ = 1;
 };
 

@@ -121,6 +121,31 @@ std::uint32_t decodeMark(const AttachmentLayout& layout, const std::uint32_t* wo
   return layout.carrier == Carrier::float_attachments ? wholeNumber(words[0]) : words[0];
 }
 
+std::uint32_t encodeMark(const AttachmentLayout& layout, std::uint32_t mark) {
+  return layout.carrier == Carrier::float_attachments ? std::bit_cast<std::uint32_t>(static_cast<float>(mark))
+                                                      : mark;
+}
+
+DiscardedThreads decodeDiscarded(const AttachmentLayout& layout, const std::vector<std::uint32_t>& block) {
+  DiscardedThreads result;
+  if (block.size() < kDiscardedHeader || layout.discarded_words <= 4) return result;
+  const auto words = static_cast<std::size_t>(layout.discarded_words);
+  result.ended = block[0];
+  const std::size_t count =
+      std::min<std::size_t>(std::min(block[0], block[1]), (block.size() - kDiscardedHeader) / words);
+  const bool floats = layout.carrier == Carrier::float_attachments;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t* at = block.data() + kDiscardedHeader + i * words;
+    DiscardedThread thread;
+    thread.x = static_cast<int>(floats ? wholeNumber(at[0]) : at[0]);
+    thread.y = static_cast<int>(floats ? wholeNumber(at[1]) : at[1]);
+    thread.depth = std::bit_cast<float>(at[2]);
+    thread.words = at + 4;
+    result.threads.push_back(thread);
+  }
+  return result;
+}
+
 Recording decodeRecording(const RecordingLayout& layout, const std::vector<std::uint32_t>& words) {
   if (words.size() < kRecordingHeader) return refused("there is no header");
   const std::size_t room = words[1];

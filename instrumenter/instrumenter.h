@@ -3,7 +3,8 @@
 //
 // In every instrumented text the user's own tokens stand unchanged and in order, with insertions; the only
 // replacements are the name of `main` (wrapped, so that captured words are written at every end of the thread),
-// the names of functions cloned along a call path, and gl_FragColor (see constructs/fragment_outputs.h).
+// the names of functions cloned along a call path, `discard` (constructs/discard.h) and gl_FragColor
+// (constructs/fragment_outputs.h).
 #pragma once
 
 #include <cstdint>
@@ -43,9 +44,18 @@ struct Field {
 };
 
 // Words per thread, in attachments of 4 channels each. Word 0 is the *mark*: 0 = no fragment of the draw is
-// visible here; kLaunched = the thread ran; kLaunched | kReached = it got to the probe.
+// visible here; kLaunched = the thread ran; kLaunched | kReached = it got to the probe. kDiscarded is no
+// shader's doing: it marks words that come from the list of discarded threads.
 inline constexpr std::uint32_t kLaunched = 1;
 inline constexpr std::uint32_t kReached = 2;
+inline constexpr std::uint32_t kDiscarded = 4;
+
+// A thread that ends in a discard leaves nothing in attachments. Where the driver has storage buffers it appends its
+// words to a list in a block instead:
+//   [0] number of such threads (atomic), 0 before the draw   [1] number of those that there is room for   [2],[3]
+//   reserved; all four are ints
+//   then per thread, in order of their ends, `discarded_words` words of the carrier: gl_FragCoord.x, .y (floor; in the
+//   shader's own convention), .z, 1, and what it would have left in its attachments
 struct AttachmentLayout {
   Carrier carrier = Carrier::uint_attachments;
   int words = 1;                        // including the mark
@@ -53,6 +63,8 @@ struct AttachmentLayout {
   std::vector<std::string> outputs;     // names of the capture outputs, in order; empty with gl_FragData, where
                                         // capture outputs are gl_FragData[first_frag_data ...]
   int first_frag_data = 0;
+  std::string discarded_block;          // name of the storage block; empty: discarded threads are not captured
+  int discarded_words = 0;              // per thread in the list
   int attachments() const { return (words + 3) / 4; }
 };
 
@@ -61,19 +73,27 @@ enum class Event {
   function_enter,   // values: parameters that come in
   function_leave,   // fell off the end; values: out parameters
   before,           // about to run a statement that calls user functions, or any loop
-  statement,        // ran it; values: what it may have changed (in scope), declared variables
+  statement,        // ran it; values: what it may have changed (in scope), declared variables. Of large arrays, of
+                    // memory that all threads see and of images, the part written, named as the user wrote it
   condition,        // evaluated it; first value is the outcome "" (bool; int/uint for switch; true for a missing
                     // one), then what changed. for: with what init (its variables too) or increment changed
   iteration,        // at the start of a loop's body
   return_,          // about to return; first value is the returned one, named "return", if any
   jump,             // about to break, continue or discard
+  call,             // about to evaluate the arguments of `call` and then to enter its function; where the order of
+                    // records does not tell which call it is. Calls nest: the last one not yet entered is entered
+  choice,           // evaluated the operand that decides at the operator `token` (?:, && or ||): its value, named ""
+  declarator,       // the declarator at `token` and those before it have run, the next is about to: what changed
 };
 struct RecordLayout {
   Event event = Event::statement;
   frontend::StatementId statement = frontend::kNone;
   frontend::FunctionId function = frontend::kNone;
+  frontend::CallId call = frontend::kNone;
+  frontend::TokenIndex token = frontend::kNone;  // call: the function's name
   std::vector<Field> fields;   // first_word counts from after the record's id
   int words = 0;               // without the id
+  std::vector<std::string> left_out;  // what changed, too, but is wider than kWidestRecorded
 };
 
 // Recording: the storage block is an array of 32-bit ints:
@@ -90,7 +110,7 @@ struct RecordLayout {
 // fragment among several on one pixel is known.
 inline constexpr int kRecordingHeader = 4;
 inline constexpr int kThreadHeader = 4;
-// Values of more words than this (large arrays) are left out of records; their statement still has its record.
+// Values of more words than this (large arrays) are left out of records, which name them.
 inline constexpr int kWidestRecorded = 64;
 struct RecordingLayout {
   std::string block;                    // name of the storage block
@@ -128,7 +148,15 @@ struct Probe {
                                             // path: the loops of the statement's function
   std::vector<frontend::Watch> watches;
   bool outcome = false;                     // with When::after on a condition: also capture its outcome ("")
+  // With When::after: not after the whole statement, but inside of its own expressions. At an operator ?:, && or ||
+  // (choicesOf): right after the operand that decides, whose value is the outcome. At the closing parenthesis of a
+  // call of a user function: right after it returned.
+  frontend::TokenIndex inside = frontend::kNone;
 };
+
+// The operators ?:, && and || in a statement's own expressions, a loop's increment included; outer ones before those
+// inside of them. Those that literals decide are left out.
+std::vector<frontend::TokenIndex> choicesOf(const frontend::Shader&, frontend::StatementId);
 
 // The loops whose iterations `Probe::iterations` numbers, for a probe at this place: those around each call of the
 // path (also one that calls from its own condition or increment), then those around the statement.
@@ -165,8 +193,9 @@ Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Targe
 
 // ---- whole-thread measures ---------------------------------------------------------------------------------
 
-// Per loop of the shader three uint fields: "entries" (times entered), "iterations" (bodies begun, all entries
-// together), "longest" (bodies begun in the longest entry). Fields are named "<statement id>.entries", ...
+// Per loop of the shader four uint fields: "entries" (times entered), "iterations" (bodies begun, all entries
+// together), "longest" (bodies begun in the longest entry), "cut" (entries that ended although neither the condition
+// nor a jump ended them). Fields are named "<statement id>.entries", ...
 Result<AttachmentShader> instrumentLoops(const frontend::Shader&, const std::vector<frontend::StatementId>& loops,
                                          const Target&);
 
@@ -221,6 +250,20 @@ void decodeInto(const AttachmentLayout&, const Field&, const std::vector<fronten
                 const std::uint32_t* words, std::uint32_t* out);
 // The mark word of a thread under any carrier.
 std::uint32_t decodeMark(const AttachmentLayout&, const std::uint32_t* words);
+std::uint32_t encodeMark(const AttachmentLayout&, std::uint32_t mark);
+
+// The threads that ended in a discard, as they stand in the storage block.
+inline constexpr int kDiscardedHeader = 4;
+struct DiscardedThread {
+  int x = 0, y = 0;
+  float depth = 0;                       // gl_FragCoord.z
+  const std::uint32_t* words = nullptr;  // layout.words of them, inside of the decoded block
+};
+struct DiscardedThreads {
+  std::uint32_t ended = 0;  // more than `threads` if there was not enough room
+  std::vector<DiscardedThread> threads;
+};
+DiscardedThreads decodeDiscarded(const AttachmentLayout&, const std::vector<std::uint32_t>& block);
 
 struct Record {
   int layout = 0;                     // index into RecordingLayout::records

@@ -4,7 +4,6 @@
 #include "instrumenter/attachments.h"
 #include "instrumenter/constructs/condition.h"
 #include "instrumenter/constructs/loop.h"
-#include "instrumenter/constructs/main.h"
 #include "instrumenter/constructs/statement.h"
 #include "instrumenter/instrumenter.h"
 
@@ -51,8 +50,8 @@ class Measures {
   Result<AttachmentShader> finish(const std::string& start = "", const std::string& end = "") {
     if (!failure_.empty()) return Failure{failure_};
     attachments_.declare();
-    wrapMain(draft_, start_ + start,
-             end + "  " + attachments_.assign(kLaunched | kReached, values_) + ";\n" + attachments_.write());
+    attachments_.frame(start_ + start,
+                       end + "  " + attachments_.assign(kLaunched | kReached, values_) + ";\n");
     auto text = draft_.finish();
     if (auto* failure = std::get_if<Failure>(&text)) return *failure;
     return AttachmentShader{std::move(std::get<std::string>(text)), attachments_.layout()};
@@ -92,9 +91,26 @@ bool isCounted(const Statement& statement) {
 
 }  // namespace
 
+namespace {
+
+// A loop goes on from the start of a body until its condition fails or a `break` leaves it; other jumps out of it do
+// not come to what stands behind it. Where it still goes on there, the driver has ended it.
+void countCuts(Draft& draft, Conditions& conditions, StatementId loop, const std::string& cut) {
+  const Shader& shader = draft.shader();
+  const std::string goes_on = draft.name("goes_on" + std::to_string(loop));
+  draft.declare("bool " + goes_on + ";");
+  putAround(draft.edits, shader, loop, goes_on + " = false;", "if (" + goes_on + ") " + cut + "++;");
+  putAtBodyStart(draft.edits, shader, statementAt(shader, loop).children.back(), goes_on + " = true;");
+  conditions.putAfter(draft.edits, loop, goes_on + " = " + conditions.outcome(loop));
+  for (const StatementId jump : breaksOf(shader, loop)) putAround(draft.edits, shader, jump, goes_on + " = false;", "");
+}
+
+}  // namespace
+
 Result<AttachmentShader> instrumentLoops(const Shader& shader, const std::vector<StatementId>& loops,
                                          const Target& target) {
   Draft draft(shader);
+  Conditions conditions(draft);
   Measures measures(draft, target);
   // Outer loops first, as the edits need them; a statement has a smaller number than what it holds.
   for (const StatementId loop : std::set<StatementId>(loops.begin(), loops.end())) {
@@ -106,6 +122,7 @@ Result<AttachmentShader> instrumentLoops(const Shader& shader, const std::vector
     const std::string longest = measures.addCounter(name + ".longest");
     const std::string current = draft.name("current" + name);
     draft.declare(draft.highp() + "int " + current + ";");
+    countCuts(draft, conditions, loop, measures.addCounter(name + ".cut"));
     putAround(draft.edits, shader, loop, entries + "++; " + current + " = 0;", "");
     putAtBodyStart(draft.edits, shader, statementAt(shader, loop).children.back(),
                    iterations + "++; " + current + "++; if (" + current + " > " + longest + ") " + longest +

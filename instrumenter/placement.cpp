@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "instrumenter/constructs/loop.h"
+#include "instrumenter/constructs/operators.h"
 #include "instrumenter/constructs/statement.h"
 
 namespace shadestep::instrumenter {
@@ -57,7 +59,8 @@ class Placement {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::string guard = guardOf(all[i]);
       const StatementId at = outermost(all[i].probe.statement);
-      steps_[{at, 1, i}] = [this, &one = all[i], guard] { capture(one, guard); };
+      const int order = all[i].probe.inside == frontend::kNone ? 1 : 2 + placeInside(all[i].probe);
+      steps_[{at, order, i}] = [this, &one = all[i], guard] { capture(one, guard); };
     }
     for (const auto& [order, step] : steps_) step();
   }
@@ -66,6 +69,15 @@ class Placement {
   // What is put around a `for`'s init is put around the `for`.
   StatementId outermost(StatementId id) const {
     return isForInit(shader_, id) ? statementAt(shader_, id).parent : id;
+  }
+
+  // What encloses more comes first: operators in their order, then calls, outer ones first.
+  int placeInside(const Probe& probe) const {
+    const std::vector<frontend::TokenIndex> operators = choicesOf(shader_, probe.statement);
+    const auto found = std::find(operators.begin(), operators.end(), probe.inside);
+    if (found != operators.end()) return static_cast<int>(found - operators.begin());
+    const frontend::TokenIndex last = statementAt(shader_, probe.statement).tokens.last;
+    return static_cast<int>(operators.size()) + last - probe.inside;
   }
 
   // The condition under which a capture runs; has its loops counted.
@@ -104,13 +116,25 @@ class Placement {
                           "(" + both + " && (" + one.capture + ", true)), " + first + " = false");
   }
 
+  void captureInside(Edits& edits, const Probe& probe, const std::string& text) {
+    if (const std::optional<Choice> choice = choiceAt(shader_, probe.statement, probe.inside)) {
+      putAfterDecision(edits, draft_, *choice, text);
+    } else {
+      const frontend::Call call = *callEndingAt(shader_, probe.statement, probe.inside);
+      if (returned_.insert(call.close).second) declareReturned(draft_, call);
+      putAfterCall(edits, draft_, call, text);
+    }
+  }
+
   void capture(const Placed& one, const std::string& guard) {
     Edits& edits = paths_.edits(one.probe.call_path);
     const StatementId id = one.probe.statement;
     const Statement& statement = statementAt(shader_, id);
     const std::string guarded =
         guard.empty() ? one.capture : "(" + guard + " && (" + one.capture + ", true))";
-    if (isFunctionStart(statement)) {
+    if (one.probe.inside != frontend::kNone) {
+      captureInside(edits, one.probe, guarded);
+    } else if (isFunctionStart(statement)) {
       putAtBodyStart(edits, shader_, id, guarded + ";");
     } else if (isForInit(shader_, id)) {
       if (isAfter(one.probe))
@@ -134,6 +158,7 @@ class Placement {
   CallPaths& paths_;
   std::map<CountedLoop, std::string> counters_;
   int firsts_ = 0;
+  std::set<frontend::TokenIndex> returned_;  // calls whose buffers are declared
   // What to register, by statement; there counters (0) before captures (1).
   std::map<std::tuple<StatementId, int, std::size_t>, std::function<void()>> steps_;
 };
@@ -145,13 +170,33 @@ std::string misplaced(const Shader& shader, const Probe& probe) {
     return "The shader has no statement number " + std::to_string(probe.statement) + ".";
   const Statement& statement = statementAt(shader, probe.statement);
   const std::string line = "line " + std::to_string(statement.place.line);
-  if (isAfter(probe) && isJump(statement.kind))
+  if (isAfter(probe) && isJump(statement.kind) && probe.inside == frontend::kNone)
     return "Nothing runs after the jump at " + line + "; look at the values before it.";
   if (statement.kind == StatementKind::case_label)
     return "The label at " + line + " is no step; choose the statement behind it.";
+  if (probe.inside != frontend::kNone) {
+    const std::optional<frontend::Call> call = callEndingAt(shader, probe.statement, probe.inside);
+    if (call && !fitsIntoSequence(shader, functionAt(shader, call->callee).return_type))
+      return "Nothing can be looked at right after the call at " + line +
+             ", which returns an array; look at the values behind the statement.";
+    if (!isAfter(probe) || (!call && !choiceAt(shader, probe.statement, probe.inside)))
+      return "There is no operator and no call at that place of the statement at " + line + ".";
+    return brokenPath(shader, probe.call_path, statement.function);
+  }
   if (statement.kind == StatementKind::block && !(isFunctionStart(statement) && !isAfter(probe)))
     return "The braces at " + line + " are no step; choose a statement inside.";
   return brokenPath(shader, probe.call_path, statement.function);
+}
+
+frontend::Type outcomeType(const Shader& shader, const Probe& probe) {
+  if (probe.inside == frontend::kNone) return outcomeType(shader, probe.statement);
+  frontend::Type type;
+  type.basic = frontend::Basic::bool_;
+  return type;
+}
+
+std::string outcomeText(const Draft& draft, Conditions& conditions, const Probe& probe) {
+  return probe.inside == frontend::kNone ? conditions.outcome(probe.statement) : choiceOutcome(draft);
 }
 
 std::vector<StatementId> numberedLoops(const Shader& shader, const Probe& probe) {

@@ -13,6 +13,10 @@ namespace shadestep::instrumenter {
 // Why nothing can be captured at the probe's place; empty if it can.
 std::string misplaced(const frontend::Shader&, const Probe&);
 
+// The outcome that a probe with `outcome` captures: its type, and how it reads in the text of the capture.
+frontend::Type outcomeType(const frontend::Shader&, const Probe&);
+std::string outcomeText(const Draft&, Conditions&, const Probe&);
+
 // What runs at a probe's place, and when.
 struct Placed {
   Probe probe;

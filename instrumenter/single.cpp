@@ -1,7 +1,6 @@
 // One probe, all threads (thesis 7.1.4).
 #include "instrumenter/attachments.h"
 #include "instrumenter/constructs/fragment_outputs.h"
-#include "instrumenter/constructs/main.h"
 #include "instrumenter/placement.h"
 
 namespace shadestep::instrumenter {
@@ -12,7 +11,7 @@ namespace {
 
 // Takes as many watches as fit; says why if not even one does.
 std::string addFields(Attachments& attachments, const Shader& shader, const Probe& probe) {
-  if (probe.outcome && !attachments.add("", outcomeType(shader, probe.statement)))
+  if (probe.outcome && !attachments.add("", outcomeType(shader, probe)))
     return "The draw buffers have no room for the outcome of the condition.";
   for (const frontend::Watch& watch : probe.watches) {
     if (attachments.add(watch.expression, watch.type)) continue;
@@ -39,12 +38,12 @@ Result<AttachmentShader> instrumentSingle(const Shader& shader, const Probe& pro
 
   // 1. Outputs and main first: these replacements must hold in the functions copied below too.
   attachments.declare();
-  wrapMain(draft, "  " + attachments.clear(kLaunched) + ";\n", attachments.write());
+  attachments.frame("  " + attachments.clear(kLaunched) + ";\n", "");
   // 2. The functions along the path, before anything is inserted into them.
   CallPaths paths(draft, {probe.call_path});
   // 3. The counters and the probe.
   std::vector<std::string> values;
-  if (probe.outcome) values.push_back(conditions.outcome(probe.statement));
+  if (probe.outcome) values.push_back(outcomeText(draft, conditions, probe));
   for (std::size_t i = 0; values.size() < attachments.layout().fields.size(); ++i)
     values.push_back(withoutFragColor(probe.watches[i].expression));
   std::vector<std::string> numbers;

@@ -3,7 +3,6 @@
 
 #include "instrumenter/attachments.h"
 #include "instrumenter/constructs/fragment_outputs.h"
-#include "instrumenter/constructs/main.h"
 #include "instrumenter/placement.h"
 
 namespace shadestep::instrumenter {
@@ -21,7 +20,7 @@ std::string misplaced(const Shader& shader, const std::vector<Probe>& probes) {
 }
 
 std::string addFields(Attachments& attachments, const Shader& shader, const Probe& probe) {
-  if (probe.outcome && !attachments.add("", outcomeType(shader, probe.statement)))
+  if (probe.outcome && !attachments.add("", outcomeType(shader, probe)))
     return "The draw buffers have no room for the outcome of a condition.";
   for (const frontend::Watch& watch : probe.watches) {
     if (!attachments.add(watch.expression, watch.type))
@@ -71,7 +70,7 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
 
   // In the same order as for a single probe.
   attachments.declare();
-  wrapMain(draft, "  " + attachments.clear(kLaunched) + ";\n", attachments.write());
+  attachments.frame("  " + attachments.clear(kLaunched) + ";\n", "");
   std::vector<CallPaths::Path> wanted;
   for (const Probe& probe : probes) wanted.push_back(probe.call_path);
   CallPaths paths(draft, wanted);
@@ -86,7 +85,7 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const Probe& probe = probes[i];
     std::vector<std::string> values;
-    if (probe.outcome) values.push_back(conditions.outcome(probe.statement));
+    if (probe.outcome) values.push_back(outcomeText(draft, conditions, probe));
     for (const frontend::Watch& watch : probe.watches) values.push_back(withoutFragColor(watch.expression));
     const std::vector<std::string> numbers(
         layout.iteration_uniforms.begin(),
@@ -94,6 +93,8 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
     placed.push_back({probe, layout.probe_uniform + " == " + std::to_string(i), numbers,
                       attachments.assign(layout.probes[i].fields, kLaunched | kReached, values)});
     layout.probes[i].outputs = layout.capture.outputs;
+    layout.probes[i].discarded_block = layout.capture.discarded_block;
+    layout.probes[i].discarded_words = layout.capture.discarded_words;
   }
   place(draft, conditions, paths, placed);
   if (auto failure = paths.insertCopies()) return *failure;

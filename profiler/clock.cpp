@@ -19,9 +19,7 @@ session::Captured drawOnce(session::Session& session, const session::Prepared& p
                            const instrumenter::AttachmentLayout& layout, bool compare) {
   session::ExecuteOptions execute;
   execute.compare = compare;
-  session::Captured captured{{}, layout, session.execute(prepared, execute)};
-  captured.threads = session::joinAttachments(captured.execution, layout.words);
-  return captured;
+  return session.capture(prepared, layout, execute);
 }
 
 std::vector<double> ticksOf(const session::Captured& captured, const CostMap& map, bool& wrapped) {

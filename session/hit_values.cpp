@@ -47,7 +47,7 @@ HitValues valuesOfHit(Session& session, int x, int y, int hit, const PlaceSelect
     throw Error(Outcome::cannot_debug,
                 "--call and --hit do not go together; 'debug --pixel --hit' alone shows every call");
   }
-  const std::vector<frontend::Watch> watches = watchesAt(shader, probe.statement, names);
+  const std::vector<frontend::Watch> watches = watchesAt(shader, probe, names);
   const Session::Recorded recorded = recordPixel(session, x, y);
   HitValues result;
   result.hits = hitsOn(recorded, x, y);

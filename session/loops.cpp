@@ -5,6 +5,8 @@
 namespace shadestep::session {
 namespace {
 
+constexpr std::size_t kFields = 4;  // of instrumentLoops, per loop
+
 using frontend::Shader;
 using frontend::StatementId;
 using frontend::StatementKind;
@@ -46,71 +48,75 @@ void countPerIteration(LoopReport& loop, const std::vector<std::uint32_t>& longe
   }
 }
 
+// As many of the loops from `first` on as one draw's buffers hold.
+Captured captureLoops(Session& session, const std::vector<StatementId>& loops, std::size_t first) {
+  for (std::size_t count = loops.size() - first;; count /= 2) {
+    const std::vector<StatementId> batch(
+        loops.begin() + static_cast<std::ptrdiff_t>(first),
+        loops.begin() + static_cast<std::ptrdiff_t>(first + std::max<std::size_t>(count, 1)));
+    auto instrumented =
+        instrumenter::instrumentLoops(session.shader(Stage::fragment), batch, session.target());
+    if (const auto* shader = std::get_if<instrumenter::AttachmentShader>(&instrumented))
+      return session.capture(*shader);
+    if (count <= 1) throw Error(Outcome::cannot_debug, std::get<instrumenter::Failure>(instrumented).reason);
+  }
+}
+
+LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captured, std::size_t number) {
+  const auto pixels = captured.threads.data.size() / static_cast<std::size_t>(captured.layout.words);
+  LoopReport loop;
+  loop.statement = id;
+  const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(id)];
+  loop.line = statement.place.line;
+  loop.function = shader.functions[static_cast<std::size_t>(statement.function)].name;
+  loop.iterations.assign(pixels, 0);
+  std::vector<std::uint32_t> longest;
+  std::uint64_t sum = 0;
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const std::uint32_t* words =
+        captured.threads.data.data() + p * static_cast<std::size_t>(captured.layout.words);
+    if (instrumenter::decodeMark(captured.layout, words) == 0) continue;
+    const auto field = [&](std::size_t which) {
+      return instrumenter::decode(captured.layout, captured.layout.fields[number * kFields + which], words)
+          .words.at(0);
+    };
+    const std::uint32_t entries = field(0);
+    if (entries == 0) continue;
+    ++loop.threads;
+    loop.entries = std::max(loop.entries, entries);
+    loop.iterations[p] = field(1);
+    loop.max = std::max(loop.max, loop.iterations[p]);
+    sum += loop.iterations[p];
+    longest.push_back(field(2));
+    loop.cut += field(3) > 0 ? 1 : 0;
+  }
+  if (loop.threads > 0) loop.mean = static_cast<double>(sum) / static_cast<double>(loop.threads);
+  countPerIteration(loop, longest);
+  return loop;
+}
+
 }  // namespace
 
 LoopsReport profileLoops(Session& session, int line) {
   const Shader& shader = session.shader(Stage::fragment);
   const std::vector<StatementId> loops = selectLoops(shader, line);
   LoopsReport report;
-  std::size_t done = 0;
-  while (done < loops.size()) {
-    const std::vector<StatementId> rest(loops.begin() + static_cast<std::ptrdiff_t>(done), loops.end());
-    auto instrumented = instrumenter::instrumentLoops(shader, rest, session.target());
-    if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) {
-      throw Error(Outcome::cannot_debug, failure->reason);
-    }
-    const Captured captured = session.capture(std::get<instrumenter::AttachmentShader>(instrumented));
-    const auto& fields = captured.layout.fields;
-    const std::size_t taken = fields.size() / 3;
-    if (taken == 0) {
-      throw Error(Outcome::cannot_debug,
-                  "the driver's " + std::to_string(session.facts().max_draw_buffers) +
-                      " draw buffers (GL_MAX_DRAW_BUFFERS) leave no room for loop counters");
-    }
-    const std::size_t pixels =
-        static_cast<std::size_t>(captured.threads.width) * static_cast<std::size_t>(captured.threads.height);
-    const std::size_t stride = static_cast<std::size_t>(captured.layout.words);
-    if (done == 0) {
+  while (report.loops.size() < loops.size()) {
+    const Captured captured = captureLoops(session, loops, report.loops.size());
+    if (report.loops.empty()) {
       report.width = captured.threads.width;
       report.height = captured.threads.height;
-      report.marks.resize(pixels);
-      for (std::size_t p = 0; p < pixels; ++p) {
-        report.marks[p] = static_cast<std::uint8_t>(
-            instrumenter::decodeMark(captured.layout, captured.threads.data.data() + p * stride));
-      }
+      const auto stride = static_cast<std::size_t>(captured.layout.words);
+      for (std::size_t at = 0; at < captured.threads.data.size(); at += stride)
+        report.marks.push_back(static_cast<std::uint8_t>(
+            instrumenter::decodeMark(captured.layout, captured.threads.data.data() + at)));
       report.check = captured.execution.check;
     } else {
       report.check.merge(captured.execution.check);
     }
-    for (std::size_t l = 0; l < taken; ++l) {
-      LoopReport loop;
-      loop.statement = rest[l];
-      const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(loop.statement)];
-      loop.line = statement.place.line;
-      loop.function = shader.functions[static_cast<std::size_t>(statement.function)].name;
-      loop.iterations.assign(pixels, 0);
-      std::vector<std::uint32_t> longest;
-      std::uint64_t sum = 0;
-      for (std::size_t p = 0; p < pixels; ++p) {
-        if (report.marks[p] == 0) continue;
-        const std::uint32_t* words = captured.threads.data.data() + p * stride;
-        const auto field = [&](std::size_t which) {
-          return instrumenter::decode(captured.layout, fields[l * 3 + which], words).words.at(0);
-        };
-        const std::uint32_t entries = field(0);
-        if (entries == 0) continue;
-        ++loop.threads;
-        loop.entries = std::max(loop.entries, entries);
-        loop.iterations[p] = field(1);
-        loop.max = std::max(loop.max, loop.iterations[p]);
-        sum += loop.iterations[p];
-        longest.push_back(field(2));
-      }
-      if (loop.threads > 0) loop.mean = static_cast<double>(sum) / static_cast<double>(loop.threads);
-      countPerIteration(loop, longest);
-      report.loops.push_back(std::move(loop));
-    }
-    done += taken;
+    const std::size_t taken = captured.layout.fields.size() / kFields;
+    for (std::size_t l = 0; l < taken; ++l)
+      report.loops.push_back(reportOf(shader, loops[report.loops.size()], captured, l));
   }
   return report;
 }

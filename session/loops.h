@@ -19,12 +19,16 @@ struct LoopReport {
   std::uint32_t entries = 0;              // most entries by one thread
   std::uint32_t max = 0;                  // iterations of the longest thread, all entries together
   double mean = 0;                        // iterations per thread that enters
+  // Threads that left it although neither its condition nor a jump ended it: the driver did (llvmpipe does, after 65,536
+  // iterations of all loops of a thread together). Their counts are the driver's, not the shader's.
+  std::uint64_t cut = 0;
   std::vector<std::uint32_t> iterations;  // per pixel, rows bottom up, all entries together
 };
 
 struct LoopsReport {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> marks;  // per pixel: instrumenter::kLaunched where a thread is visible
+  std::vector<std::uint8_t>
+      marks;  // per pixel: instrumenter::kLaunched where there is a thread, | kDiscarded if it ends so
   std::vector<LoopReport> loops;
   Check check;
 };

@@ -24,14 +24,15 @@ bool branches(const Statement& statement) {
 
 }  // namespace
 
-// ---- places ----------------------------------------------------------------------------------------------
+// ---- places
 
 std::vector<StatementId> Navigation::loopsAround(const Position& position) const {
   if (position.ended()) return {};
   std::vector<StatementId> loops = frontend::enclosingLoops(shader_, position.statement);
   // The init of a `for` comes before its loop's first iteration.
   if (!loops.empty() && at(loops.back()).init == position.statement) loops.pop_back();
-  if (position.condition && isLoop(at(position.statement))) loops.push_back(position.statement);
+  const bool in_head = position.condition || position.calls_done > 0;
+  if (in_head && isLoop(at(position.statement))) loops.push_back(position.statement);
   return loops;
 }
 
@@ -97,14 +98,23 @@ Position Navigation::decide(Position position, StatementId loop, bool next) cons
   return position;
 }
 
-// Calls run when their arguments are there: in the order of their closing parentheses.
+// Calls run when their arguments are there: in the order of their closing parentheses; a loop's increment
+// before its condition.
 std::vector<CallId> Navigation::callsInOrder(StatementId id) const {
   std::vector<CallId> calls = at(id).calls;
   std::sort(calls.begin(), calls.end(), [&](CallId a, CallId b) {
+    const bool first = inIncrement(id, a);
+    if (first != inIncrement(id, b)) return first;
     return shader_.calls[static_cast<std::size_t>(a)].close <
            shader_.calls[static_cast<std::size_t>(b)].close;
   });
   return calls;
+}
+
+bool Navigation::inIncrement(StatementId id, CallId call) const {
+  const frontend::TokenRange& increment = at(id).increment;
+  const frontend::TokenIndex name = shader_.calls[static_cast<std::size_t>(call)].name;
+  return !increment.empty() && increment.first <= name && name <= increment.last;
 }
 
 // Back in the caller: before what the calling statement does next, or after it.
@@ -114,17 +124,28 @@ Position Navigation::returned(Position position) const {
   const frontend::Call& call = shader_.calls[static_cast<std::size_t>(id)];
   position.call_path.pop_back();
   position.statement = call.statement;
+  return afterCall(std::move(position), id);
+}
+
+Position Navigation::afterCall(Position position, CallId call) const {
+  const std::vector<CallId> calls = callsInOrder(position.statement);
   position.condition = false;
-  const std::vector<CallId> calls = callsInOrder(call.statement);
-  position.calls_done = static_cast<int>(std::find(calls.begin(), calls.end(), id) - calls.begin()) + 1;
+  position.calls_done = static_cast<int>(std::find(calls.begin(), calls.end(), call) - calls.begin()) + 1;
   return position;
 }
 
-// ---- moves -----------------------------------------------------------------------------------------------
+CallId Navigation::callDone(const Position& position) const {
+  if (position.ended() || position.calls_done == 0) return kNone;
+  return callsInOrder(position.statement).at(static_cast<std::size_t>(position.calls_done) - 1);
+}
+
+// ---- moves
 
 Position Navigation::over(const Position& from) const {
   if (from.ended() || from.condition) return from;
   const Statement& statement = at(from.statement);
+  if (isLoop(statement) && from.calls_done > 0)
+    return decide(from, from.statement, inIncrement(from.statement, callDone(from)));
   Position position = from;
   position.calls_done = 0;
   if (statement.kind == StatementKind::for_ && statement.init != kNone)
@@ -180,21 +201,55 @@ Position Navigation::jump(const Position& from) const {
 
 Position Navigation::into(const Position& from) const {
   if (from.ended() || from.condition) return from;
-  const Statement& statement = at(from.statement);
-  // The calls of a loop's condition run in each iteration, not before the loop.
-  if (isLoop(statement)) return over(from);
+  const Position inside = intoCall(from);
+  if (!(inside == from)) return inside;
+  const Position next = over(from);
+  const bool in_head = isLoop(at(from.statement)) && from.calls_done > 0;
+  const bool before_head = !in_head && !next.ended() && next.condition && isLoop(at(next.statement));
+  return before_head ? intoHead(from, next) : next;
+}
+
+Position Navigation::intoCall(const Position& from) const {
+  if (from.ended() || from.condition) return from;
+  const bool at_loop = isLoop(at(from.statement));
+  if (at_loop && from.calls_done == 0) return from;  // a loop's calls run in each iteration, not before it
   const std::vector<CallId> calls = callsInOrder(from.statement);
   for (auto next = static_cast<std::size_t>(from.calls_done); next < calls.size(); ++next) {
-    const StatementId body =
-        shader_
-            .functions[static_cast<std::size_t>(shader_.calls[static_cast<std::size_t>(calls[next])].callee)]
-            .body;
-    if (body == kNone) continue;
+    const CallId call = calls[next];
     Position position = from;
-    position.call_path.push_back(calls[next]);
-    return enter(position, body);
+    if (at_loop && inIncrement(from.statement, callDone(from)) && !inIncrement(from.statement, call))
+      ++position.iterations.back();
+    position = enterCall(std::move(position), call);
+    if (!position.ended()) return position;
   }
-  return over(from);
+  return from;
+}
+
+// At the start of a called function; nowhere if it is defined in another shader.
+Position Navigation::enterCall(Position position, CallId id) const {
+  const frontend::Call& call = shader_.calls[static_cast<std::size_t>(id)];
+  const StatementId body = shader_.functions[static_cast<std::size_t>(call.callee)].body;
+  if (body == kNone) return {};
+  position.call_path.push_back(id);
+  return enter(std::move(position), body);
+}
+
+// Into the first call of the head that leads to a loop's decision. The increment runs before all decisions
+// but the first.
+Position Navigation::intoHead(const Position& from, const Position& decision) const {
+  const StatementId loop = decision.statement;
+  const bool first = from.statement == loop || from.statement == at(loop).init;
+  for (const CallId call : callsInOrder(loop)) {
+    Position position = decision;
+    position.condition = false;
+    if (inIncrement(loop, call)) {
+      if (first) continue;
+      --position.iterations.back();
+    }
+    position = enterCall(std::move(position), call);
+    if (!position.ended()) return position;
+  }
+  return decision;
 }
 
 Position Navigation::out(const Position& from) const {

@@ -22,7 +22,8 @@ struct Position {
   std::vector<int> iterations;
   // The condition of the if, loop or switch has been evaluated: a side is to be chosen.
   bool condition = false;
-  // Calls of the statement's expressions that have been stepped through already.
+  // Calls of the statement's expressions that have been stepped through already. At a loop: of its head,
+  // between the increment and the condition's end; that evaluation of the head counts among the iterations.
   int calls_done = 0;
 
   bool ended() const { return statement == frontend::kNone; }
@@ -44,8 +45,11 @@ class Navigation {
   // After the statement: at a branch, to its condition (`condition` set: then choose among sides()); else to
   // what runs next. A called function runs as a whole.
   Position over(const Position&) const;
-  // Into the first call of the statement that has not been stepped through; over() if there is none.
+  // Into the first call of the statement that has not been stepped through, or of the loop's head that comes
+  // next; over() if there is none.
   Position into(const Position&) const;
+  // The same for the statement's own calls alone; no move if there is none.
+  Position intoCall(const Position&) const;
   // To the end of the current function: back in the caller, right after the call. Ends the thread in main.
   Position out(const Position&) const;
   // To the condition that decides on the next iteration of the innermost loop; no move outside of loops.
@@ -56,6 +60,11 @@ class Navigation {
   // their iteration, loops that are entered start with 0. No move if the line has no statement in this
   // function.
   Position toLine(const Position&, int line) const;
+
+  // The call that has returned last at a position with `calls_done`; kNone elsewhere.
+  frontend::CallId callDone(const Position&) const;
+  // The position right after that call returned, in the statement that makes it.
+  Position afterCall(Position in_statement, frontend::CallId) const;
 
   // The ways on from a position whose `condition` is set; empty elsewhere.
   std::vector<Side> sides(const Position&) const;
@@ -73,6 +82,9 @@ class Navigation {
   Position after(Position, frontend::StatementId) const;
   Position returned(Position) const;
   std::vector<frontend::CallId> callsInOrder(frontend::StatementId) const;
+  bool inIncrement(frontend::StatementId, frontend::CallId) const;
+  Position enterCall(Position, frontend::CallId) const;
+  Position intoHead(const Position& from, const Position& decision) const;
   Position decide(Position, frontend::StatementId loop, bool next) const;
   Position jump(const Position&) const;
   void leaveTo(Position&, frontend::StatementId loop, bool keep_loop) const;

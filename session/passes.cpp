@@ -1,6 +1,7 @@
 // Capture passes at the draw at which the program stands.
 #include <algorithm>
 
+#include "session/discarded_threads.h"
 #include "session/session_state.h"
 
 namespace shadestep::session {
@@ -8,7 +9,8 @@ namespace {
 
 constexpr std::uint32_t kFirstRoomPerThread = 1 << 16;  // words a recorded thread may write at the first try
 constexpr std::uint32_t kThreadsPerPixel = 16;          // fragments expected at most on one pixel, first try
-constexpr std::uint64_t kMostRecordingWords = 1ull << 28;  // 1 GiB
+constexpr std::uint64_t kNoRoom = instrumenter::kDiscardedHeader;  // words of a storage buffer for no thread
+constexpr std::uint64_t kMostRecordingWords = 1ull << 28;          // 1 GiB
 
 }  // namespace
 
@@ -64,10 +66,11 @@ std::uint32_t glUniformType(const frontend::Type& type) {
   }
 }
 
-// ---- prepared programs ---------------------------------------------------------------------------------
+// ---- prepared programs
 
 Prepared::Prepared(Prepared&& other) noexcept
     : compile_time(other.compile_time),
+      storage(other.storage),
       session_(std::exchange(other.session_, nullptr)),
       handle_(other.handle_) {}
 
@@ -77,6 +80,7 @@ Prepared& Prepared::operator=(Prepared&& other) noexcept {
     session_ = std::exchange(other.session_, nullptr);
     handle_ = other.handle_;
     compile_time = other.compile_time;
+    storage = other.storage;
   }
   return *this;
 }
@@ -85,7 +89,7 @@ Prepared::~Prepared() {
   if (session_ != nullptr) session_->release(handle_);
 }
 
-// ---- capture passes ------------------------------------------------------------------------------------
+// ---- capture passes
 
 namespace {
 
@@ -192,7 +196,11 @@ Prepared Session::send(wire::PrepareT&& prepare) {
 
 Prepared Session::prepare(const instrumenter::AttachmentShader& instrumented) {
   requireCapturable();
-  return send(preparation(shader(Stage::fragment), instrumented.text, instrumented.layout));
+  auto prepare = preparation(shader(Stage::fragment), instrumented.text, instrumented.layout);
+  prepare.storage_block = instrumented.layout.discarded_block;
+  Prepared prepared = send(std::move(prepare));
+  prepared.storage = !instrumented.layout.discarded_block.empty();
+  return prepared;
 }
 
 Prepared Session::prepare(const instrumenter::RecordingShader& instrumented) {
@@ -230,7 +238,9 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
     execute.uniforms.push_back(std::move(value));
   }
   execute.storage = options.storage;
-  execute.storage_words = options.storage_words;
+  // Without a buffer it would write to whatever the program has bound there; one of zeros has room for
+  // nothing.
+  execute.storage_words = std::max<std::uint64_t>(options.storage_words, prepared.storage ? kNoRoom : 0);
   execute.compare = options.compare;
   execute.read_outputs = options.read_outputs;
   execute.read_captures = options.read_captures;
@@ -321,17 +331,48 @@ ThreadWords joinAttachments(const Execution& execution, int words) {
 }
 
 Captured Session::capture(const instrumenter::AttachmentShader& instrumented, const ExecuteOptions& options) {
-  const Prepared prepared = prepare(instrumented);
+  return capture(prepare(instrumented), instrumented.layout, options);
+}
+
+Captured Session::capture(const Prepared& prepared, const instrumenter::AttachmentLayout& layout,
+                          const ExecuteOptions& options) {
   Captured captured;
-  captured.layout = instrumented.layout;
-  captured.execution = execute(prepared, options);
-  captured.threads = joinAttachments(captured.execution, instrumented.layout.words);
-  captured.execution.attachments.clear();
-  if (shader(Stage::fragment).traits.uses_discard) {
+  captured.layout = layout;
+  if (layout.discarded_block.empty()) {
+    captured.execution = execute(prepared, options);
+    captured.threads = joinAttachments(captured.execution, layout.words);
+    if (shader(Stage::fragment).traits.uses_discard) {
+      captured.execution.check.left_out =
+          "threads that end in a discard write nothing and are left out (this driver or dialect has no "
+          "storage "
+          "buffers for them); 'debug --pixel' follows them";
+    }
+  } else {
+    const instrumenter::DiscardedThreads discarded = executeWithList(prepared, options, captured);
+    captured.threads = joinAttachments(captured.execution, layout.words);
     captured.execution.check.left_out =
-        "threads that end in a discard write nothing and are left out; 'debug --pixel' follows them";
+        addDiscarded(captured.threads, layout, discarded, countsRowsFromTop(shader(Stage::fragment)));
+    captured.execution.storage.clear();
   }
+  captured.execution.attachments.clear();
   return captured;
+}
+
+// Executes with room for the list of discarded threads, once more if there are more of them than before. The
+// list points into `captured`'s storage.
+instrumenter::DiscardedThreads Session::executeWithList(const Prepared& prepared, ExecuteOptions options,
+                                                        Captured& captured) {
+  const auto words = static_cast<std::uint64_t>(captured.layout.discarded_words);
+  const std::uint64_t most = (kMostRecordingWords - kNoRoom) / words;
+  while (true) {
+    const std::uint64_t room = std::min(state_->discarded_room, most);
+    options.storage = {0, static_cast<std::uint32_t>(room), 0, 0};
+    options.storage_words = kNoRoom + room * words;
+    captured.execution = execute(prepared, options);
+    const auto discarded = instrumenter::decodeDiscarded(captured.layout, captured.execution.storage);
+    if (discarded.ended <= room || room == most) return discarded;
+    state_->discarded_room = discarded.ended;
+  }
 }
 
 Session::PreparedRecording Session::prepareRecording() {

@@ -175,7 +175,7 @@ class ProbedRun {
   }
 
   Position carryOut(const Position& position) {
-    const Position inside = navigation_.into(position);
+    const Position inside = navigation_.intoCall(position);
     if (inside.call_path.size() > position.call_path.size()) {
       if (position.calls_done == 0) push(Step::Kind::call, position);
       return enter(position, inside);
@@ -195,6 +195,9 @@ class ProbedRun {
       push(Step::Kind::return_, position);
     } else if (statement.kind == StatementKind::break_ || statement.kind == StatementKind::continue_) {
       push(Step::Kind::jump, position);
+    } else if (statement.kind == StatementKind::discard) {
+      push(Step::Kind::jump, position);
+      run_.discarded = true;
     }
     return navigation_.over(position);
   }

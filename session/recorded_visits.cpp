@@ -106,6 +106,14 @@ class Walk {
         frames_.pop_back();
         break;
       case Event::function_enter:
+      case Event::call:
+      case Event::choice:
+        break;
+      case Event::declarator:
+        for (std::size_t i = 0; i < layout.fields.size(); ++i) {
+          const VariableId id = recordedVariable(shader_, layout, layout.fields[i].name);
+          if (id != kNone) remember(layout, id, record.values.at(i));
+        }
         break;
     }
   }

@@ -271,7 +271,10 @@ instrumenter::Target Session::target() {
   const DrawFacts& draw = facts();
   const int version = draw.major * 100 + draw.minor * 10;
   instrumenter::Target target;
-  target.storage_buffers = draw.max_storage_blocks > 0;
+  const auto& tokens = shader(Stage::fragment).tokens;
+  const auto own_blocks = std::count_if(tokens.begin(), tokens.end(),
+                                        [](const frontend::Token& token) { return token.text == "buffer"; });
+  target.storage_buffers = draw.max_storage_blocks > own_blocks;
   target.bit_encoding = draw.has("GL_ARB_shader_bit_encoding") || (draw.es ? version >= 300 : version >= 330);
   target.shader_clock = draw.has("GL_ARB_shader_clock");
   target.es_draw_buffers = draw.has("GL_EXT_draw_buffers");

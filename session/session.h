@@ -111,6 +111,7 @@ class Prepared {
   ~Prepared();
   std::uint32_t handle() const { return handle_; }
   std::chrono::nanoseconds compile_time{0};
+  bool storage = false;  // it has a storage block of ours, which a buffer must always be bound to
   std::vector<int> output_locations;  // of the shader's declared outputs, as far as the program writes them
 
  private:
@@ -232,8 +233,12 @@ class Session {
       const std::string& fragment_text);  // another text with the same outputs, without captures
   Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);  // isolate
   Execution execute(const Prepared&, const ExecuteOptions& = {});
-  // prepare + execute + join the attachments per pixel.
+  // prepare + execute + join the attachments per pixel. Threads that end in a discard are put where the draw
+  // shows none of its fragments, marked kDiscarded: the nearest of them; where that is not clear, none, and
+  // `left_out` says so.
   Captured capture(const instrumenter::AttachmentShader&, const ExecuteOptions& = {});
+  // The same with a program that is there already, read by its layout or by that of one of its probes.
+  Captured capture(const Prepared&, const instrumenter::AttachmentLayout&, const ExecuteOptions& = {});
   struct PreparedRecording {
     instrumenter::RecordingShader shader;
     Prepared program;
@@ -253,6 +258,7 @@ class Session {
 
  private:
   Prepared send(wire::PrepareT&&);
+  instrumenter::DiscardedThreads executeWithList(const Prepared&, ExecuteOptions, Captured&);
   void leaveOutUndefined(const Prepared&, const ExecuteOptions&, std::uint64_t unstable, Check&);
   struct State;
   std::unique_ptr<State> state_;

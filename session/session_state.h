@@ -15,6 +15,8 @@ namespace shadestep::session {
 // The agent's refusal as the Error that it is.
 [[noreturn]] void raise(const wire::FailedT&);
 
+inline constexpr std::uint64_t kFirstDiscardedRoom = 256;  // threads that end in a discard, at the first try
+
 struct Session::State {
   State(const LaunchOptions& options, const std::string& interceptor)
       : programs(options.command, interceptor, options.program_output_to_stderr) {
@@ -28,12 +30,14 @@ struct Session::State {
   std::map<Stage, frontend::Shader> shaders;
   std::optional<UndefinedOutputs> undefined;
   FragmentChoice fragments;
+  std::uint64_t discarded_room = kFirstDiscardedRoom;  // of the current stop
 
   void leaveStop() {
     stop.reset();
     facts.reset();
     shaders.clear();
     undefined.reset();
+    discarded_room = kFirstDiscardedRoom;
   }
 
   wire::Packet request(wire::MessageT& message) { return programs.request(message, deadline); }

@@ -61,10 +61,16 @@ const WatchedValues* valueOf(const ThreadValues& threads, const std::string& nam
   return found == threads.values.end() ? nullptr : &*found;
 }
 
+bool isLoop(frontend::StatementKind kind) {
+  return kind == frontend::StatementKind::for_ || kind == frontend::StatementKind::while_ ||
+         kind == frontend::StatementKind::do_while;
+}
+
 }  // namespace
 
 Stepper::Stepper(Session& session, std::optional<std::size_t> pixel, Plan plan)
-    : shader_(session.shader(Stage::fragment)),
+    : session_(session),
+      shader_(session.shader(Stage::fragment)),
       navigation_(shader_),
       pixel_(pixel),
       plan_(makePlan(session, plan)) {
@@ -88,13 +94,52 @@ ThreadValues Stepper::look(const std::vector<std::string>& watches) {
 // The values of these names, at a condition its outcome first; perhaps more.
 const ThreadValues& Stepper::here(const std::vector<std::string>& watches) {
   if (ended()) throw Error(Outcome::nothing_matches, "the threads have ended; start again");
-  instrumenter::Probe probe = probeAt(position_);
+  instrumenter::Probe probe = probeAt(shader_, position_);
   probe.watches = watchesAt(shader_, probe, watches);
   const auto known = [&](const std::string& name) { return valueOf(*here_, name) != nullptr; };
   if (here_ && std::all_of(watches.begin(), watches.end(), known)) return *here_;
 
   here_ = plan_->valuesAt(probe);
   return *here_;
+}
+
+std::vector<frontend::VariableId> Stepper::scope() const {
+  if (ended()) return {};
+  return statementAt(scopeAt(shader_, probeAt(shader_, position_))).scope;
+}
+
+std::vector<frontend::VariableId> Stepper::mayChange() const {
+  if (ended()) return {};
+  const frontend::Statement& statement = statementAt(position_.statement);
+  std::vector<frontend::VariableId> changes = statement.changes;
+  changes.insert(changes.end(), statement.increment_changes.begin(), statement.increment_changes.end());
+  std::sort(changes.begin(), changes.end());
+  changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
+  return changes;
+}
+
+std::vector<TakenChoice> Stepper::choices() {
+  std::vector<TakenChoice> taken;
+  const bool before_loop = !ended() && !position_.condition && isLoop(statementAt(position_.statement).kind);
+  if (ended() || before_loop) return taken;
+  for (const frontend::TokenIndex op : instrumenter::choicesOf(shader_, position_.statement)) {
+    instrumenter::Probe probe = probeAt(shader_, position_);
+    probe.when = instrumenter::Probe::When::after;
+    probe.inside = op;
+    probe.outcome = true;
+    const frontend::TokenRange& increment = statementAt(position_.statement).increment;
+    const bool in_increment = !increment.empty() && increment.first <= op && op <= increment.last;
+    if (in_increment && probe.iterations.back()-- == 0)
+      continue;  // nothing is incremented before the first decision
+
+    const frontend::Token& token = shader_.tokens[static_cast<std::size_t>(op)];
+    TakenChoice choice{token.text == "?" ? "?:" : token.text, token.place, valuesAt(session_, probe), 0, 0};
+    for (std::size_t p = 0; p < choice.outcome.marks.size(); ++p) {
+      if (choice.outcome.reachedAt(p)) ++(*choice.outcome.values.front().at(p) != 0 ? choice.yes : choice.no);
+    }
+    taken.push_back(std::move(choice));
+  }
+  return taken;
 }
 
 const std::vector<TakenSide>& Stepper::sides() {

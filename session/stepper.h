@@ -21,6 +21,14 @@ struct TakenSide {
   std::vector<std::uint8_t> mask;  // per pixel, rows bottom up: 1 where the thread goes this way
 };
 
+// An operator ?:, && or || in the statement at the position, and how the operand that decides came out.
+struct TakenChoice {
+  std::string operation;  // "?:", "&&", "||"
+  frontend::Place place;
+  ThreadValues outcome;  // one value, bool; of the threads that evaluate it
+  std::uint64_t yes = 0, no = 0;
+};
+
 class Stepper {
  public:
   // At the start of main of the current draw's fragment shader. `pixel` (index into the target) picks the
@@ -38,6 +46,12 @@ class Stepper {
   // Values of variables in scope, of all threads that are at the position. One redraw (more for more watches
   // than one draw holds); none for what was looked at here before.
   ThreadValues look(const std::vector<std::string>& watches);
+  // What can be named at the position, innermost last, and what its statement may change in some thread.
+  std::vector<frontend::VariableId> scope() const;
+  std::vector<frontend::VariableId> mayChange() const;
+  // The operators of the statement, outer ones before those inside of them; one redraw each. A loop's are
+  // those of the evaluation of its head that the position stands behind; before the loop there are none.
+  std::vector<TakenChoice> choices();
   // At a branch (position().condition): its sides with the threads that take them; empty elsewhere.
   const std::vector<TakenSide>& sides();
   // Follows a side by its name, or, without one, the picked thread's or most threads'. Throws
@@ -46,7 +60,11 @@ class Stepper {
 
  private:
   const ThreadValues& here(const std::vector<std::string>& watches);
+  const frontend::Statement& statementAt(frontend::StatementId id) const {
+    return shader_.statements[static_cast<std::size_t>(id)];
+  }
 
+  Session& session_;
   const frontend::Shader& shader_;
   Navigation navigation_;
   Position position_;

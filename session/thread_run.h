@@ -21,7 +21,9 @@ struct Step {
     enter,      // a called function begins; `changed` holds its parameters
     leave,      // a called function ends without a return statement
     return_,
-    jump,  // break, continue, discard
+    jump,        // break, continue, discard
+    declarator,  // one of a declaration's names, where others follow; the last is the statement
+    cut,   // the driver ended a loop whose condition still held (llvmpipe does, after 65,536 iterations)
   };
   Kind kind = Kind::statement;
   frontend::StatementId statement = frontend::kNone;
@@ -32,6 +34,15 @@ struct Step {
       iteration;  // per loop that the step is in, outermost first over the whole call path, 0-based
   std::vector<NamedValue> changed;
   std::string outcome;  // condition: "true", "false", or the selector of a switch
+  // Which operands of ?:, && and || ran in this step, in order: the outcome of the operand that decides.
+  struct Choice {
+    std::string operation;  // "?:", "&&", "||"
+    int line = 0, column = 0;
+    bool outcome = false;
+  };
+  std::vector<Choice> choices;
+  frontend::CallId call = frontend::kNone;  // enter: which call led here, where that is known
+  std::vector<std::string> left_out;        // what changed, too, but is too large to be recorded
 };
 
 struct ThreadRun {

@@ -104,13 +104,29 @@ ThreadValues valuesAt(Session& session, const PlaceSelection& place,
   return valuesAt(session, probeAt(session.shader(Stage::fragment), place), watches);
 }
 
+// Inside of a declaration's own expressions its names are not there yet; in the head of a `for` those of its
+// init are.
+frontend::WatchResult watchAt(const Shader& shader, const Probe& probe, const std::string& name) {
+  const bool in_head =
+      shader.statements[static_cast<std::size_t>(probe.statement)].kind == StatementKind::for_;
+  const bool behind = probe.when == Probe::When::after && (probe.inside == kNone || in_head);
+  return behind ? frontend::resolveWatchAfter(shader, probe.statement, name)
+                : frontend::resolveWatch(shader, probe.statement, name);
+}
+
+StatementId scopeAt(const Shader& shader, const Probe& probe) {
+  const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(probe.statement)];
+  const bool in_head = statement.kind == StatementKind::for_ && probe.when == Probe::When::after;
+  // A variable that the condition declares is in the body's scope, but not yet there when its value is
+  // evaluated.
+  return in_head && !statement.condition_declares ? statement.children.back() : probe.statement;
+}
+
 std::vector<frontend::Watch> watchesAt(const Shader& shader, const Probe& probe,
                                        const std::vector<std::string>& names) {
   std::vector<frontend::Watch> watches;
   for (const std::string& text : names) {
-    frontend::WatchResult resolved = probe.when == Probe::When::after
-                                         ? frontend::resolveWatchAfter(shader, probe.statement, text)
-                                         : frontend::resolveWatch(shader, probe.statement, text);
+    frontend::WatchResult resolved = watchAt(shader, probe, text);
     if (!resolved.watch) throw Error(Outcome::nothing_matches, resolved.error);
     if (frontend::wordCount(resolved.watch->type) == 0) {
       throw Error(Outcome::nothing_matches, "'" + text + "' is a " + glslName(resolved.watch->type) +
@@ -147,6 +163,7 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
     if (!first) continue;
     result.launched += mark != 0 ? 1 : 0;
     result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
+    result.discarded += (mark & instrumenter::kDiscarded) != 0 ? 1 : 0;
   }
   for (const instrumenter::Field& field : layout.fields) {
     const std::vector<frontend::Component> components = frontend::components(field.type);

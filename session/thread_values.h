@@ -31,9 +31,10 @@ struct WatchedValues {
 
 struct ThreadValues {
   int width = 0, height = 0;
-  std::uint64_t launched = 0;       // threads whose fragment is visible
+  std::uint64_t launched = 0;       // threads whose fragment is visible, and those that end in a discard
   std::uint64_t reached = 0;        // of these, those that got to the place
-  std::vector<std::uint8_t> marks;  // width*height: instrumenter::kLaunched | kReached
+  std::uint64_t discarded = 0;      // of these, those that end in a discard
+  std::vector<std::uint8_t> marks;  // width*height: instrumenter::kLaunched | kReached | kDiscarded
   std::vector<WatchedValues> values;
   frontend::StatementId statement = frontend::kNone;
   Check check;
@@ -53,6 +54,10 @@ ThreadValues valuesAt(Session&, instrumenter::Probe);
 // What the names mean where the probe is. Throws nothing_matches for what is not in scope or holds no value.
 std::vector<frontend::Watch> watchesAt(const frontend::Shader&, const instrumenter::Probe&,
                                        const std::vector<std::string>& names);
+frontend::WatchResult watchAt(const frontend::Shader&, const instrumenter::Probe&, const std::string& name);
+// The statement whose scope holds at a probe: at the head of a `for`, what its init declares can be named
+// too.
+frontend::StatementId scopeAt(const frontend::Shader&, const instrumenter::Probe&);
 
 // Takes in one pass over a place: its marks, which must be those of the passes before, its fields and its
 // check.

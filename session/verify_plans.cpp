@@ -85,7 +85,7 @@ void WindowCheck::compare(Window& window, const Item& item) {
     if (differing == 0) continue;
     if (i >= first && mayBeUndefined(shader, item.parts[i - first].variable)) continue;
     const int width = std::max(again.width, 1);
-    const Pixel pixel{static_cast<int>(example) % width, static_cast<int>(example) / width};
+    const Pixel pixel{static_cast<int>(example) % width, static_cast<int>(example) / width, false};
     findings_.fail(Kind::value, &at, "window", one.name,
                    std::to_string(differing) + " threads differ from a single probe, such as " +
                        where(pixel) + ": " + formatValue(other.valueAt(example)) + " instead of " +

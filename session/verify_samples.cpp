@@ -111,7 +111,9 @@ std::vector<Pixel> choosePixels(const ThreadValues& cover, int most) {
 
   std::vector<Pixel> pixels;
   for (const std::size_t p : chosen) {
-    if (pixels.size() < wanted) pixels.push_back({static_cast<int>(p % width), static_cast<int>(p / width)});
+    if (pixels.size() < wanted)
+      pixels.push_back({static_cast<int>(p % width), static_cast<int>(p / width),
+                        (cover.marks[p] & instrumenter::kDiscarded) != 0});
   }
   return pixels;
 }

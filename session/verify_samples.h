@@ -10,6 +10,7 @@ namespace shadestep::session {
 
 struct Pixel {
   int x = 0, y = 0;
+  bool discarded = false;  // it shows no thread, and what is looked at there is one that ends in a discard
 };
 std::string where(const Pixel&);  // "pixel 3,4"
 

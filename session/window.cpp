@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t kInt = 0x1404;  // GL_INT
 
 bool samePlace(const Probe& a, const Probe& b) {
-  return a.statement == b.statement && a.when == b.when && a.call_path == b.call_path &&
-         a.iterations.size() == b.iterations.size();
+  return a.statement == b.statement && a.when == b.when && a.inside == b.inside &&
+         a.call_path == b.call_path && a.iterations.size() == b.iterations.size();
 }
 
 bool captures(const Probe& probe, const Probe& wanted) {
@@ -58,18 +58,25 @@ ThreadValues Window::valuesAt(const Probe& wanted) {
   for (std::size_t i = 0; i < wanted.iterations.size(); ++i)
     options.uniforms.push_back(
         {layout_.iteration_uniforms[i], kInt, {static_cast<std::uint32_t>(wanted.iterations[i])}});
-  const Execution execution = session_.execute(prepared_, options);
-  if (!execution.times.empty()) draw_time_ = execution.times.front();
+  const Captured captured = session_.capture(prepared_, layout_.probes[chosen], options);
+  if (!captured.execution.times.empty()) draw_time_ = captured.execution.times.front();
 
-  const instrumenter::AttachmentLayout& layout = layout_.probes[chosen];
   ThreadValues values;
   values.statement = wanted.statement;
-  addPass(values, joinAttachments(execution, layout.words), layout, execution.check);
+  addPass(values, captured.threads, captured.layout, captured.execution.check);
   return values;
 }
 
-Probe probeAt(const Position& position) {
+Probe probeAt(const frontend::Shader& shader, const Position& position) {
   Probe probe;
+  if (const frontend::CallId call = Navigation(shader).callDone(position); call != frontend::kNone) {
+    probe.inside = shader.calls[static_cast<std::size_t>(call)].close;
+    probe.when = Probe::When::after;
+    probe.statement = position.statement;
+    probe.call_path = position.call_path;
+    probe.iterations = position.iterations;
+    return probe;
+  }
   probe.when = position.condition ? Probe::When::after : Probe::When::before;
   probe.outcome = position.condition;
   probe.statement = position.statement;
@@ -80,19 +87,22 @@ Probe probeAt(const Position& position) {
 
 namespace {
 
-Position positionOf(const Probe& probe) {
+Position positionOf(const frontend::Shader& shader, const Probe& probe) {
   Position position;
   position.call_path = probe.call_path;
   position.statement = probe.statement;
   position.iterations = probe.iterations;
-  position.condition = probe.outcome;
+  position.condition = probe.outcome && probe.inside == frontend::kNone;
+  for (const frontend::CallId call : shader.statements[static_cast<std::size_t>(probe.statement)].calls)
+    if (shader.calls[static_cast<std::size_t>(call)].close == probe.inside)
+      return Navigation(shader).afterCall(position, call);
   return position;
 }
 
 void watchInScope(const frontend::Shader& shader, const std::vector<std::string>& names, Probe& probe) {
   probe.watches.clear();
   for (const std::string& name : names) {
-    frontend::WatchResult found = frontend::resolveWatch(shader, probe.statement, name);
+    frontend::WatchResult found = watchAt(shader, probe, name);
     if (found.watch && frontend::wordCount(found.watch->type) > 0)
       probe.watches.push_back(std::move(*found.watch));
   }
@@ -119,11 +129,11 @@ std::vector<Probe> probesAround(const frontend::Shader& shader, const Probe& fir
     ahead.push_back(navigation.into(position));
   };
   add(first);
-  goOn(positionOf(first));
+  goOn(positionOf(shader, first));
   while (!ahead.empty() && probes.size() < most) {
     const Position position = std::move(ahead.front());
     ahead.pop_front();
-    if (!position.ended() && add(probeAt(position))) goOn(position);
+    if (!position.ended() && add(probeAt(shader, position))) goOn(position);
   }
   return probes;
 }

@@ -33,7 +33,7 @@ class Window {
 };
 
 // What is captured at a position: before its statement, or after its condition with the outcome.
-instrumenter::Probe probeAt(const Position&);
+instrumenter::Probe probeAt(const frontend::Shader&, const Position&);
 
 // This probe and those that a walk from its place meets first, both sides of branches and called functions
 // too; nearest first. What is in scope there of the names is watched.

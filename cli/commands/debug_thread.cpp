@@ -39,15 +39,34 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-std::string whatHappened(const Step& step) {
+// Where the call stands that led to an `enter`.
+frontend::Place callOf(const Shader& shader, const Step& step) {
+  const frontend::TokenIndex name = shader.calls[static_cast<std::size_t>(step.call)].name;
+  return shader.tokens[static_cast<std::size_t>(name)].place;
+}
+
+std::string whatHappened(const Shader& shader, const Step& step) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "  ") + part; };
+  for (const Step::Choice& choice : step.choices)
+    add(choice.operation + " at " + std::to_string(choice.line) + ":" + std::to_string(choice.column) +
+        (choice.outcome ? " true" : " false"));
   if (!step.outcome.empty()) add("-> " + step.outcome);
   if (step.kind == Step::Kind::call) add("(calls)");
   if (step.kind == Step::Kind::leave) add("(returns)");
+  if (step.call != frontend::kNone) {
+    const frontend::Place place = callOf(shader, step);
+    add("(called at " + std::to_string(place.line) + ":" + std::to_string(place.column) + ")");
+  }
+  if (step.kind == Step::Kind::cut)
+    add("the driver ended this loop although its condition still held: what follows is not what the shader "
+        "says");
   for (const session::NamedValue& changed : step.changed) {
     add(changed.name + " = " + session::formatValue(changed.value));
   }
+  for (const std::string& name : step.left_out)
+    add(name + " (too large to be recorded: 'debug --at " + std::to_string(step.line) + " --after --print " +
+        name + "[0]' shows an element)");
   return text;
 }
 
@@ -90,7 +109,7 @@ std::string asText(const Shader& shader, const session::DrawStop& stop, const se
                        std::to_string(step.line),
                    8)
          << padded(joined(step.iteration), 9) << "  " << padded(indent + source, 56);
-    const std::string happened = whatHappened(step);
+    const std::string happened = whatHappened(shader, step);
     if (!happened.empty()) text << "  " << happened;
     text << "\n";
     ++number;
@@ -103,7 +122,18 @@ std::string asText(const Shader& shader, const session::DrawStop& stop, const se
   return text.str();
 }
 
-Json asJson(const ThreadRun& run) {
+Json choicesAsJson(const Step& step) {
+  Json choices = Json::array();
+  for (const Step::Choice& choice : step.choices) {
+    choices.push_back({{"operator", choice.operation},
+                       {"line", choice.line},
+                       {"column", choice.column},
+                       {"outcome", choice.outcome}});
+  }
+  return choices;
+}
+
+Json asJson(const Shader& shader, const ThreadRun& run) {
   Json document;
   document["thread"] = {{"stage", "fragment"},
                         {"x", run.x},
@@ -127,6 +157,12 @@ Json asJson(const ThreadRun& run) {
       changed[value.name] = {{"type", glslName(value.value.type)}, {"value", toJson(value.value)}};
     }
     one["changed"] = std::move(changed);
+    if (!step.choices.empty()) one["choices"] = choicesAsJson(step);
+    if (step.call != frontend::kNone) {
+      const frontend::Place place = callOf(shader, step);
+      one["call"] = {{"line", place.line}, {"column", place.column}};
+    }
+    if (!step.left_out.empty()) one["left_out"] = step.left_out;
     steps.push_back(std::move(one));
   }
   document["steps"] = std::move(steps);
@@ -167,7 +203,7 @@ int debugThread(session::Session& session, const Common& common, const DebugOpti
   const ThreadRun run = session::followPixel(session, pixel[0], pixel[1], options.hit);
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(run));
   if (common.json) {
-    Json document = asJson(run);
+    Json document = asJson(session.shader(session::Stage::fragment), run);
     document["fragments"] = toJson(options.fragments);
     print(document);
   } else {

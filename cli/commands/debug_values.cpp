@@ -38,7 +38,8 @@ session::PlaceSelection placeOf(const DebugOptions& options) {
 
 Json asJson(const ThreadValues& threads, const std::optional<std::size_t>& pixel) {
   Json document;
-  document["threads"] = {{"launched", threads.launched}, {"reached", threads.reached}};
+  document["threads"] = {
+      {"launched", threads.launched}, {"reached", threads.reached}, {"discarded", threads.discarded}};
   document["width"] = threads.width;
   document["height"] = threads.height;
   Json values = Json::object();
@@ -79,7 +80,9 @@ void printText(const ThreadValues& threads, const DebugOptions& options,
   std::cout << (options.after ? "after" : "before") << " line " << options.at;
   if (!options.iteration.empty()) std::cout << ", iteration " << options.iteration;
   std::cout << ": " << withThousands(threads.reached) << " of " << withThousands(threads.launched)
-            << " threads get there\n"
+            << " threads get there"
+            << (threads.discarded == 0 ? "" : "; " + withThousands(threads.discarded) + " end in a discard")
+            << "\n"
             << describe(threads.check) << "\n";
   for (const WatchedValues& watched : threads.values) {
     std::cout << "\n" << watched.name << " (" << glslName(watched.type) << ")\n";

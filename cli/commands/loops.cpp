@@ -37,6 +37,7 @@ Json asJson(const LoopsReport& report) {
     one["entries"] = loop.entries;
     one["active"] = loop.active;
     one["left"] = loop.left;
+    one["cut"] = loop.cut;
     one["max"] = loop.max;
     one["mean"] = loop.mean;
     loops.push_back(std::move(one));
@@ -126,6 +127,9 @@ void printText(const LoopsReport& report) {
     std::cout << "loop at line " << loop.line << " in " << loop.function << ": "
               << withThousands(loop.threads) << " threads, mean " << loop.mean
               << " iterations, longest thread " << loop.max;
+    if (loop.cut > 0)
+      std::cout << ", ended by the driver in " << withThousands(loop.cut)
+                << " threads although its condition still held (llvmpipe ends loops after 65,536 iterations)";
     if (loop.entries > 1) std::cout << ", entered up to " << loop.entries << " times by one thread";
     std::cout << "\n";
     if (loop.active.empty()) continue;

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <map>
 #include <sstream>
 
 #include "cli/common.h"
@@ -23,177 +24,316 @@ struct Options {
 
 constexpr const char* kHelp =
     "over         to the next statement; at a branch: follow the picked thread, or most threads\n"
-    "into         into the next call of the statement\n"
+    "into         into the next call of the statement, or of the loop's head that comes next\n"
     "out          back to the caller\n"
     "side NAME    at a branch: follow this side (true, false, case N, default)\n"
     "next         to the condition of the loop's next iteration\n"
     "leave        past the loop\n"
     "line N       to a line of this function\n"
     "print A,B    values here: range over all threads that are here, and the picked thread's\n"
+    "choices      which operands of ?:, && and || the threads evaluate in this statement\n"
     "scope        the variables in scope here, and what the statement may change\n"
     "where        the calls and iterations that lead here\n"
     "restart      back to the start of main\n"
     "quit         end the program under debug\n";
 
+// What a command found, as a document; `asText` says the same to a person.
 class Dialogue {
  public:
   Dialogue(session::Session& session, std::optional<std::size_t> pixel, session::Plan plan)
       : stepper_(session, pixel, plan), pixel_(pixel) {}
 
-  void run() {
-    const bool prompt = isatty(STDIN_FILENO) != 0;
-    show();
-    std::string line;
-    while ((prompt ? std::cout << "> " << std::flush : std::cout) && std::getline(std::cin, line)) {
-      std::istringstream words(line);
-      std::string command;
-      std::string argument;
-      words >> command;
-      std::getline(words >> std::ws, argument);
-      if (command == "quit" || command == "q") return;
-      try {
-        carryOut(command, argument);
-      } catch (const session::Error& error) {
-        std::cout << error.what() << "\n";
-      }
+  // Carries out a command; the empty one says where the threads are.
+  Json carryOut(const std::string& line) {
+    std::istringstream words(line);
+    std::string command;
+    std::string argument;
+    words >> command;
+    std::getline(words >> std::ws, argument);
+    Json answer = {{"command", line}};
+    try {
+      answer.update(carryOut(command, argument));
+    } catch (const session::Error& error) {
+      answer["error"] = error.what();
     }
+    return answer;
+  }
+
+  std::string sourceLine(int line) const {
+    const auto& lines = stepper_.shader().lines;
+    return line >= 1 && static_cast<std::size_t>(line) <= lines.size()
+               ? lines[static_cast<std::size_t>(line) - 1]
+               : "";
   }
 
  private:
-  void carryOut(const std::string& command, const std::string& argument) {
+  Json carryOut(const std::string& command, const std::string& argument) {
+    if (command == "print") return values(argument);
+    if (command == "scope") return scope();
+    if (command == "where") return where();
+    if (command == "choices") return choices();
+    if (command == "restart") return moveTo(stepper_.navigation().start());
+    if (command.empty()) return position();
+    const std::optional<Position> to = destination(command, argument);
+    if (to) return moveTo(*to);
+    stepper_.choose(command == "side" ? argument : "");
+    return position();
+  }
+
+  // Where a command leads; nothing at a branch that it decides.
+  std::optional<Position> destination(const std::string& command, const std::string& argument) {
     const session::Navigation& navigation = stepper_.navigation();
     const Position& here = stepper_.position();
-    if (command.empty()) return;
-    if (command == "help") {
-      std::cout << kHelp;
-    } else if (command == "print") {
-      printValues(argument);
-    } else if (command == "scope") {
-      printScope();
-    } else if (command == "where") {
-      printWhere();
-    } else if (command == "restart") {
-      go(navigation.start());
-    } else if (stepper_.ended()) {
-      std::cout << "the threads have ended; 'restart' goes back to the start\n";
-    } else if (command == "side") {
-      stepper_.choose(argument);
-      show();
-    } else if (command == "over" || command == "o") {
-      if (here.condition) {
-        stepper_.choose();
-        show();
-      } else {
-        go(navigation.over(here));
-      }
-    } else if (command == "into" || command == "i") {
-      if (here.condition) {
-        stepper_.choose();
-        show();
-      } else {
-        go(navigation.into(here));
-      }
-    } else if (command == "out") {
-      go(navigation.out(here));
-    } else if (command == "next") {
-      go(navigation.nextIteration(here));
-    } else if (command == "leave") {
-      go(navigation.leaveLoop(here));
-    } else if (command == "line") {
-      go(navigation.toLine(here, parseIntegers(argument, "line", 1, 1)[0]));
-    } else {
-      std::cout << "no command '" << command << "'; there are:\n" << kHelp;
-    }
+    static const std::map<std::string, std::string> kShort = {{"o", "over"}, {"i", "into"}};
+    const auto full = kShort.find(command);
+    const std::string& name = full == kShort.end() ? command : full->second;
+    const bool steps = name == "over" || name == "into";
+    if (!steps && name != "side" && name != "out" && name != "next" && name != "leave" && name != "line")
+      throw session::Error(session::Outcome::usage, "no command '" + command + "'; 'help' lists them");
+    if (stepper_.ended())
+      throw session::Error(session::Outcome::nothing_matches,
+                           "the threads have ended; 'restart' goes back to the start");
+    if (name == "side" || (steps && here.condition)) return std::nullopt;
+    if (name == "over") return navigation.over(here);
+    if (name == "into") return navigation.into(here);
+    if (name == "out") return navigation.out(here);
+    if (name == "next") return navigation.nextIteration(here);
+    if (name == "leave") return navigation.leaveLoop(here);
+    return navigation.toLine(here, parseIntegers(argument, "line", 1, 1)[0]);
   }
 
-  void go(Position position) {
-    if (position == stepper_.position()) {
-      std::cout << "that leads nowhere from here\n";
-      return;
-    }
-    stepper_.moveTo(position);
-    show();
+  Json moveTo(const Position& to) {
+    if (to == stepper_.position())
+      throw session::Error(session::Outcome::nothing_matches, "that leads nowhere from here");
+    stepper_.moveTo(to);
+    return position();
   }
 
-  const frontend::Statement& statement() const {
-    return stepper_.shader().statements[static_cast<std::size_t>(stepper_.position().statement)];
-  }
+  // ---- what is there
 
-  void show() {
-    if (stepper_.ended()) {
-      std::cout << "the threads end here\n";
-      return;
-    }
-    const int line = statement().place.line;
-    std::cout << "line " << line << "  "
-              << stepper_.shader().functions[static_cast<std::size_t>(statement().function)].name;
-    for (const int iteration : stepper_.position().iterations) std::cout << " [" << iteration << "]";
-    std::cout << "  " << stepper_.shader().lines[static_cast<std::size_t>(line) - 1] << "\n";
-    if (!stepper_.position().condition) return;
+  Json position() {
+    if (stepper_.ended()) return {{"ended", true}};
+    const frontend::Shader& shader = stepper_.shader();
+    const Position& here = stepper_.position();
+    const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(here.statement)];
+    Json json = {{"line", statement.place.line},
+                 {"column", statement.place.column},
+                 {"function", shader.functions[static_cast<std::size_t>(statement.function)].name},
+                 {"iteration", here.iterations}};
+    if (const frontend::CallId call = stepper_.navigation().callDone(here); call != frontend::kNone)
+      json["returned"] = callAsJson(call);
+    if (!here.condition) return json;
+    Json sides = Json::array();
     for (const session::TakenSide& way : stepper_.sides()) {
-      std::cout << "  " << way.side.name << ": " << withThousands(way.threads) << " threads";
-      if (pixel_ && way.mask[*pixel_] != 0) std::cout << ", the picked one too";
-      std::cout << "\n";
+      Json side = {{"name", way.side.name}, {"threads", way.threads}};
+      if (pixel_) side["picked"] = way.mask[*pixel_] != 0;
+      sides.push_back(std::move(side));
     }
+    json["sides"] = std::move(sides);
+    return json;
   }
 
-  void printValues(const std::string& names) {
+  Json callAsJson(frontend::CallId id) const {
+    const frontend::Shader& shader = stepper_.shader();
+    const frontend::Call& call = shader.calls[static_cast<std::size_t>(id)];
+    const frontend::Place place = shader.tokens[static_cast<std::size_t>(call.name)].place;
+    return {{"function", shader.functions[static_cast<std::size_t>(call.callee)].name},
+            {"line", place.line},
+            {"column", place.column}};
+  }
+
+  Json values(const std::string& names) {
     const session::ThreadValues threads = stepper_.look(splitList(names));
-    std::cout << withThousands(threads.reached) << " of " << withThousands(threads.launched)
-              << " threads are here; " << describe(threads.check) << "\n";
+    Json json = {{"threads", {{"launched", threads.launched}, {"reached", threads.reached}}},
+                 {"check", toJson(threads.check)},
+                 {"check_text", describe(threads.check)}};
+    Json list = Json::array();
     for (const session::WatchedValues& watched : threads.values) {
-      std::cout << "  " << watched.name << " (" << glslName(watched.type) << ")";
-      if (pixel_) {
-        std::cout << (threads.reachedAt(*pixel_) ? " = " + session::formatValue(watched.valueAt(*pixel_))
-                                                 : std::string(": the picked thread is not here"));
+      Json one = {{"name", watched.name}, {"type", glslName(watched.type)}};
+      if (pixel_) one["picked"] = nullptr;
+      if (pixel_ && threads.reachedAt(*pixel_)) {
+        one["picked"] = toJson(watched.valueAt(*pixel_));
+        one["picked_text"] = session::formatValue(watched.valueAt(*pixel_));
       }
-      std::cout << "\n";
+      Json components = Json::array();
       for (const auto& component : session::statistics(threads, watched)) {
-        std::cout << "    " << (component.access.empty() ? "range" : component.access) << " " << component.min
-                  << " to " << component.max << ", mean " << component.mean;
-        if (component.nan > 0) std::cout << ", NaN in " << withThousands(component.nan);
-        if (component.inf > 0) std::cout << ", infinite in " << withThousands(component.inf);
-        std::cout << "\n";
+        const bool any = component.finite > 0;
+        components.push_back({{"component", component.access},
+                              {"min", any ? number(component.min) : Json(nullptr)},
+                              {"max", any ? number(component.max) : Json(nullptr)},
+                              {"mean", any ? number(component.mean) : Json(nullptr)},
+                              {"nan", component.nan},
+                              {"inf", component.inf}});
       }
+      one["components"] = std::move(components);
+      list.push_back(std::move(one));
     }
+    json["values"] = std::move(list);
+    return json;
   }
 
-  void printScope() {
-    if (stepper_.ended()) return;
-    const auto list = [&](const char* title, const std::vector<frontend::VariableId>& ids) {
-      std::cout << title;
+  Json choices() {
+    Json list = Json::array();
+    for (const session::TakenChoice& choice : stepper_.choices()) {
+      Json one = {{"operator", choice.operation},
+                  {"line", choice.place.line},
+                  {"column", choice.place.column},
+                  {"true", choice.yes},
+                  {"false", choice.no},
+                  {"check", toJson(choice.outcome.check)}};
+      if (pixel_)
+        one["picked"] = choice.outcome.reachedAt(*pixel_)
+                            ? Json(*choice.outcome.values.front().at(*pixel_) != 0)
+                            : Json(nullptr);
+      list.push_back(std::move(one));
+    }
+    return {{"choices", std::move(list)}};
+  }
+
+  Json scope() {
+    if (stepper_.ended()) return {{"ended", true}};
+    const auto list = [&](const std::vector<frontend::VariableId>& ids) {
+      Json names = Json::array();
       for (const frontend::VariableId id : ids) {
         const frontend::Variable& variable = stepper_.shader().variables[static_cast<std::size_t>(id)];
-        std::cout << "  " << glslName(variable.type) << " " << variable.name;
+        names.push_back({{"type", glslName(variable.type)}, {"name", variable.name}});
       }
-      std::cout << "\n";
+      return names;
     };
-    list("in scope:", statement().scope);
-    list("may change:", statement().changes);
+    return {{"scope", list(stepper_.scope())}, {"may_change", list(stepper_.mayChange())}};
   }
 
-  void printWhere() {
-    const frontend::Shader& shader = stepper_.shader();
-    std::cout << "main";
-    for (const frontend::CallId id : stepper_.position().call_path) {
-      const frontend::Call& call = shader.calls[static_cast<std::size_t>(id)];
-      std::cout << " -> " << shader.functions[static_cast<std::size_t>(call.callee)].name
-                << " (called at line " << shader.tokens[static_cast<std::size_t>(call.name)].place.line
-                << ")";
-    }
-    std::cout << "\n";
-    if (!stepper_.ended()) show();
+  Json where() {
+    Json calls = Json::array();
+    for (const frontend::CallId id : stepper_.position().call_path) calls.push_back(callAsJson(id));
+    Json json = position();
+    json["calls"] = std::move(calls);
+    return json;
   }
 
   Stepper stepper_;
   std::optional<std::size_t> pixel_;
 };
 
-int run(const Common& common, const Options& options) {
-  if (common.json) {
-    throw session::Error(session::Outcome::usage,
-                         "step talks to a person; 'debug --json' has the same values in JSON");
+// ---- for a person
+
+std::string threadCount(const Json& threads) {
+  return withThousands(threads.get<std::uint64_t>()) + (threads == 1 ? " thread" : " threads");
+}
+
+void showPosition(const Dialogue& dialogue, const Json& answer) {
+  const int line = answer["line"];
+  std::cout << "line " << line << "  " << answer["function"].get<std::string>();
+  for (const Json& iteration : answer["iteration"]) std::cout << " [" << iteration << "]";
+  std::cout << "  " << dialogue.sourceLine(line) << "\n";
+  if (answer.contains("returned")) {
+    const Json& call = answer["returned"];
+    std::cout << "  " << call["function"].get<std::string>() << ", called at " << call["line"] << ":"
+              << call["column"] << ", has returned\n";
   }
+  if (!answer.contains("sides")) return;
+  for (const Json& side : answer["sides"]) {
+    std::cout << "  " << side["name"].get<std::string>() << ": " << threadCount(side["threads"]);
+    if (side.value("picked", false)) std::cout << ", the picked one too";
+    std::cout << "\n";
+  }
+}
+
+void showCalls(const Json& calls) {
+  std::cout << "main";
+  for (const Json& call : calls)
+    std::cout << " -> " << call["function"].get<std::string>() << " (called at " << call["line"] << ":"
+              << call["column"] << ")";
+  std::cout << "\n";
+}
+
+void showValues(const Json& answer) {
+  const Json& threads = answer["threads"];
+  std::cout << withThousands(threads["reached"]) << " of " << withThousands(threads["launched"])
+            << " threads are here; " << answer["check_text"].get<std::string>() << "\n";
+  for (const Json& value : answer["values"]) {
+    std::cout << "  " << value["name"].get<std::string>() << " (" << value["type"].get<std::string>() << ")";
+    if (value.contains("picked_text"))
+      std::cout << " = " << value["picked_text"].get<std::string>();
+    else if (value.contains("picked"))
+      std::cout << ": the picked thread is not here";
+    std::cout << "\n";
+    for (const Json& component : value["components"]) {
+      const auto access = component["component"].get<std::string>();
+      std::cout << "    " << (access.empty() ? "range" : access) << " ";
+      if (component["min"].is_null())
+        std::cout << "has no finite value";
+      else
+        std::cout << component["min"].dump() << " to " << component["max"].dump() << ", mean "
+                  << component["mean"].dump();
+      if (component["nan"] > 0) std::cout << ", NaN in " << withThousands(component["nan"]);
+      if (component["inf"] > 0) std::cout << ", infinite in " << withThousands(component["inf"]);
+      std::cout << "\n";
+    }
+  }
+}
+
+void showChoices(const Json& choices) {
+  if (choices.empty()) std::cout << "no ?:, && or || is evaluated here\n";
+  for (const Json& choice : choices) {
+    std::cout << "  " << choice["operator"].get<std::string>() << " at " << choice["line"] << ":"
+              << choice["column"] << "  true: " << threadCount(choice["true"])
+              << ", false: " << threadCount(choice["false"]);
+    if (choice.contains("picked"))
+      std::cout << (choice["picked"].is_null() ? ", the picked one does not get there"
+                    : choice["picked"]         ? ", the picked one: true"
+                                               : ", the picked one: false");
+    std::cout << "\n";
+  }
+}
+
+void showScope(const Json& answer) {
+  const auto list = [](const char* title, const Json& names) {
+    std::cout << title;
+    for (const Json& one : names)
+      std::cout << "  " << one["type"].get<std::string>() << " " << one["name"].get<std::string>();
+    std::cout << "\n";
+  };
+  list("in scope:", answer["scope"]);
+  list("may change:", answer["may_change"]);
+}
+
+void show(const Dialogue& dialogue, const Json& answer) {
+  if (answer.contains("error")) std::cout << answer["error"].get<std::string>() << "\n";
+  if (answer.contains("ended")) std::cout << "the threads end here\n";
+  if (answer.contains("calls")) showCalls(answer["calls"]);
+  if (answer.contains("line")) showPosition(dialogue, answer);
+  if (answer.contains("values")) showValues(answer);
+  if (answer.contains("choices")) showChoices(answer["choices"]);
+  if (answer.contains("scope")) showScope(answer);
+}
+
+// In JSON the whole dialogue is one document, printed at its end.
+void converse(Dialogue& dialogue, bool json) {
+  const bool prompt = !json && isatty(STDIN_FILENO) != 0;
+  Json steps = Json::array();
+  const auto answer = [&](const std::string& line) {
+    Json one = dialogue.carryOut(line);
+    if (json) {
+      one.erase("check_text");
+      steps.push_back(std::move(one));
+    } else {
+      show(dialogue, one);
+    }
+  };
+  answer("");
+  std::string line;
+  while ((prompt ? std::cout << "> " << std::flush : std::cout) && std::getline(std::cin, line)) {
+    if (line == "quit" || line == "q") break;
+    if (line == "help" && !json)
+      std::cout << kHelp;
+    else if (!line.empty())
+      answer(line);
+  }
+  if (json) print({{"steps", std::move(steps)}});
+}
+
+int run(const Common& common, const Options& options) {
   const std::optional<session::Plan> plan = session::planByName(options.plan);
   session::Session session(common.launchOptions());
   runToSelection(session, common);
@@ -203,7 +343,8 @@ int run(const Common& common, const Options& options) {
   if (!forced.empty()) std::cout << forced << "\n";
   std::optional<std::size_t> pixel;
   if (!options.pixel.empty()) pixel = pixelIndex(session, options.pixel);
-  Dialogue(session, pixel, plan.value_or(session::Plan::automatic)).run();
+  Dialogue dialogue(session, pixel, plan.value_or(session::Plan::automatic));
+  converse(dialogue, common.json);
   return 0;
 }
 

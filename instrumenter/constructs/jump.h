@@ -2,6 +2,10 @@
 // return type and lives in a block of its own.
 //
 //   return e;          ->      { T sd_return; return (sd_return = (e), text, sd_return); }
+//
+// In ES, where no sequence holds an array:
+//
+//   return e;          ->      { T sd_return; sd_return = e; text; return sd_return; }
 #pragma once
 
 #include <string>
@@ -15,5 +19,9 @@ namespace shadestep::instrumenter {
 void putIntoReturn(Edits&, const Draft&, frontend::StatementId, const std::string& before,
                    const std::string& text);
 std::string returnedValue(const Draft&);
+
+// The precision that a function's header gives to its return type, which must hold for a buffer of it too:
+// "highp ", or "".
+std::string returnPrecision(const frontend::Shader&, const frontend::Function&);
 
 }  // namespace shadestep::instrumenter

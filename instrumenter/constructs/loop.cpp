@@ -41,4 +41,17 @@ std::vector<StatementId> loopsAround(const Shader& shader, const frontend::Call&
   return loopsAround(shader, call.statement, holds(statement.expression) || holds(statement.increment));
 }
 
+std::vector<StatementId> breaksOf(const Shader& shader, StatementId loop) {
+  std::vector<StatementId> breaks;
+  for (auto id = static_cast<std::size_t>(loop) + 1; id < shader.statements.size(); ++id) {
+    if (shader.statements[id].kind != StatementKind::break_) continue;
+    StatementId target = shader.statements[id].parent;
+    while (target != frontend::kNone && !isLoop(statementAt(shader, target).kind) &&
+           statementAt(shader, target).kind != StatementKind::switch_)
+      target = statementAt(shader, target).parent;
+    if (target == loop) breaks.push_back(static_cast<StatementId>(id));
+  }
+  return breaks;
+}
+
 }  // namespace shadestep::instrumenter

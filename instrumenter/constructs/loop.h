@@ -29,4 +29,7 @@ std::vector<frontend::StatementId> loopsAround(const frontend::Shader&, frontend
 // The same for a call: `repeated` where it stands in a loop's condition or increment.
 std::vector<frontend::StatementId> loopsAround(const frontend::Shader&, const frontend::Call&);
 
+// The `break` statements that leave a loop.
+std::vector<frontend::StatementId> breaksOf(const frontend::Shader&, frontend::StatementId loop);
+
 }  // namespace shadestep::instrumenter

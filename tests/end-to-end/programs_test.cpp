@@ -53,20 +53,32 @@ TEST(Programs, RowsCountFromTheBottomWhateverTheShaderAsksFor) {
   }
 }
 
-TEST(Programs, DiscardedThreadsAreFollowedAndSaidToBeLeftOutElsewhere) {
+TEST(Programs, DiscardedThreadsAreAmongAllOthers) {
   const Scratch scratch;
   const Json run = scratch.shadestep({"debug", "--pixel", "5,7", "--json"}, {program("discard")}).json();
   EXPECT_EQ(run["outcome"], "discarded");
   EXPECT_EQ(lastValue(run, "column"), 5.0);
-  EXPECT_TRUE(run["check"]["left_out"].is_null());
 
-  // All 4,096 threads get to line 11; what is shown of them must not pass for all.
-  const Finished all =
-      scratch.shadestep({"debug", "--at", "11", "--print", "column", "--json"}, {program("discard")});
-  EXPECT_EQ(all.json()["threads"]["launched"], 64 * 32);
-  EXPECT_NE(all.json()["check"]["left_out"].dump().find("discard"), std::string::npos);
-  EXPECT_TRUE(
-      scratch.shadestep({"loops", "--json"}, {program("discard")}).json()["check"]["left_out"].is_string());
+  // Every other column ends in the function that line 11 calls.
+  const Json all = scratch
+                       .shadestep({"debug", "--at", "11", "--print", "column", "--csv", "c.csv", "--json"},
+                                  {program("discard")})
+                       .json();
+  EXPECT_EQ(all["threads"], Json({{"launched", 64 * 64}, {"reached", 64 * 64}, {"discarded", 64 * 32}}));
+  EXPECT_EQ(all["check"]["outputs"], "identical");
+  EXPECT_TRUE(all["check"]["left_out"].is_null());
+  const auto rows = readCsv(scratch.file("c.csv"));
+  ASSERT_EQ(rows.size(), 64u * 64u);
+  for (const auto& row : rows) ASSERT_EQ(row[2], row[0]);
+
+  const Json before =
+      scratch.shadestep({"debug", "--at", "5", "--print", "x", "--json"}, {program("discard")}).json();
+  EXPECT_EQ(before["threads"], Json({{"launched", 64 * 64}, {"reached", 64 * 32}, {"discarded", 64 * 32}}));
+  EXPECT_EQ(before["values"]["x"]["min"], 1.0);
+  const Json after =
+      scratch.shadestep({"debug", "--at", "12", "--print", "column", "--json"}, {program("discard")}).json();
+  EXPECT_EQ(after["threads"], Json({{"launched", 64 * 64}, {"reached", 64 * 32}, {"discarded", 64 * 32}}));
+  EXPECT_EQ(after["values"]["column"]["max"], 62.0);
 }
 
 TEST(Programs, AStageOfSeveralShaderObjectsIsOneText) {

@@ -2,25 +2,10 @@
 // by a recording, equal those of the same computation in C++.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
-#include <functional>
-
-#include "launch.h"
+#include "shader_case.h"
 
 namespace shadestep::test {
 namespace {
-
-struct Case {
-  std::string name;
-  std::string shader;                                     // `//LAST` marks the line that is looked at
-  std::vector<std::string> watches;                       // scalars
-  std::function<std::vector<double>(int, int)> expected;  // of the watches, at a pixel
-};
-
-void PrintTo(const Case& one, std::ostream* out) {
-  *out << one.name;
-}
 
 // ---- names that shadow each other and the debugger's own; macros of statements; jumps out of nested loops
 // ----
@@ -78,8 +63,8 @@ std::vector<double> names(int x, int y) {
   return {double(sum), double(r), double(v), double(o), double(sd_x), double(k)};
 }
 
-const Case kNames{"names",
-                  R"(#version 330 core
+const ShaderCase kNames{"names",
+                        R"(#version 330 core
 #define ADD(v, k) v += k; v *= 2;
 #define BLOCK(i) do { sum += i; if (sum > 1000) break; } while (false)
 out vec4 color;
@@ -122,12 +107,12 @@ void main() {
   color = vec4(float(sum), float(r), float(v), o + float(sd_x)); //LAST
 }
 )",
-                  {"sum", "r", "v", "o", "sd_x", "k"},
-                  names};
+                        {"sum", "r", "v", "o", "sd_x", "k"},
+                        names};
 
 // ---- structures in arrays in structures, whole and part; the ends of the integers' ranges ----
 
-const Case kRecords{
+const ShaderCase kRecords{
     "records",
     R"(#version 330 core
 struct Inner { ivec2 a[2]; bool on; };
@@ -160,51 +145,10 @@ void main() {
               -2147483648.0 + x,   y < 5 ? 1.0 : 0.0};
     }};
 
-class Shaders : public testing::TestWithParam<Case> {};
-
-int lastLine(const std::string& shader) {
-  return 1 + static_cast<int>(std::count(
-                 shader.begin(), shader.begin() + static_cast<std::ptrdiff_t>(shader.find("//LAST")), '\n'));
-}
-
-double number(const std::string& cell) {
-  return cell == "true" ? 1 : cell == "false" ? 0 : std::stod(cell);
-}
+class Shaders : public testing::TestWithParam<ShaderCase> {};
 
 TEST_P(Shaders, ValuesAreThoseOfTheSameComputationInCpp) {
-  const Case& one = GetParam();
-  const Scratch scratch;
-  std::ofstream(scratch.file("shader.frag")) << one.shader;
-  const std::vector<std::string> program = {binary("programs/shader-file"), scratch.file("shader.frag")};
-  std::string watches;
-  for (const std::string& watch : one.watches) watches += (watches.empty() ? "" : ",") + watch;
-
-  const Finished all = scratch.shadestep({"debug", "--at", std::to_string(lastLine(one.shader)), "--print",
-                                          watches, "--csv", "values.csv", "--json"},
-                                         program);
-  ASSERT_EQ(all.status, 0) << all.err;
-  EXPECT_EQ(all.json()["check"]["outputs"], "identical");
-  const auto rows = readCsv(scratch.file("values.csv"));
-  ASSERT_EQ(rows.size(), 256u);
-  for (const auto& row : rows) {
-    const auto expected = one.expected(std::stoi(row[0]), std::stoi(row[1]));
-    ASSERT_EQ(row.size(), expected.size() + 2);
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      ASSERT_EQ(number(row[i + 2]), expected[i]) << one.watches[i] << " at " << row[0] << "," << row[1];
-  }
-
-  const Json run = scratch.shadestep({"debug", "--pixel", "5,7", "--json"}, program).json();
-  EXPECT_EQ(run["check"]["outputs"], "identical");
-  const auto expected = one.expected(5, 7);
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    Json last;
-    for (const Json& step : run["steps"]) {
-      if (step["depth"] == 0 && step["changed"].contains(one.watches[i]))
-        last = step["changed"][one.watches[i]]["value"];
-    }
-    if (last.is_null()) continue;  // a part of a variable
-    EXPECT_EQ(last.get<double>(), expected[i]) << one.watches[i];
-  }
+  expectValuesOf(GetParam(), "shader-file");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Shaders, testing::Values(kNames, kRecords),

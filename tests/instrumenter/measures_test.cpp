@@ -127,6 +127,7 @@ TEST_P(Measures, LoopsAreCounted) {
                     static_cast<std::uint32_t>(twin.iterations[loop]));
           ASSERT_EQ(field(instrumented, result, x, y, name + ".longest"),
                     static_cast<std::uint32_t>(twin.longest[loop]));
+          ASSERT_EQ(field(instrumented, result, x, y, name + ".cut"), 0u) << instrumented.text;
         }
       }
     }

@@ -197,6 +197,26 @@ void gather(const DrawRequest& request, DrawResult& result) {
   }
 }
 
+// For every pixel once: one triangle has no more.
+std::vector<std::uint32_t> roomForDiscarded(const AttachmentLayout& layout) {
+  std::vector<std::uint32_t> words(kDiscardedHeader +
+                                   static_cast<std::size_t>(layout.discarded_words) * kPixels);
+  words[1] = kPixels;
+  return words;
+}
+
+void addDiscarded(const AttachmentLayout& layout, DrawResult& result) {
+  const DiscardedThreads discarded = decodeDiscarded(layout, result.storage);
+  if (discarded.ended != discarded.threads.size()) result.error = "more discarded threads than pixels";
+  for (const DiscardedThread& thread : discarded.threads) {
+    std::vector<std::uint32_t>& words =
+        result.captured.at(static_cast<std::size_t>(thread.y * kSize + thread.x));
+    if (decodeMark(layout, words.data()) != 0) result.error = "a discarded thread left words";
+    words.assign(thread.words, thread.words + 4 * layout.attachments());
+    words[0] = encodeMark(layout, decodeMark(layout, words.data()) | kDiscarded);
+  }
+}
+
 }  // namespace
 
 DrawResult draw(Profile profile, const DrawRequest& request) {
@@ -211,15 +231,18 @@ DrawResult draw(Profile profile, const DrawRequest& request) {
   UseProgram(program);
   for (const auto& [name, uniform] : request.uniforms) setUniform(program, name, uniform);
 
+  const std::string& list = request.capture.discarded_block;
+  const std::string& block = list.empty() ? request.storage_block : list;
+  result.storage = list.empty() ? request.storage : roomForDiscarded(request.capture);
   GLuint storage = 0;
-  if (!request.storage_block.empty()) {
+  if (!block.empty()) {
     GenBuffers(1, &storage);
     BindBuffer(GL_SHADER_STORAGE_BUFFER, storage);
-    BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(request.storage.size() * 4),
-               request.storage.data(), GL_DYNAMIC_READ);
+    BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(result.storage.size() * 4),
+               result.storage.data(), GL_DYNAMIC_READ);
     BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, storage);
-    ShaderStorageBlockBinding(
-        program, GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, request.storage_block.c_str()), 3);
+    ShaderStorageBlockBinding(program,
+                              GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block.c_str()), 3);
   }
 
   GLuint framebuffer = 0;
@@ -249,12 +272,12 @@ DrawResult draw(Profile profile, const DrawRequest& request) {
   gather(request, result);
 
   if (storage != 0) {
-    result.storage.resize(request.storage.size());
     BindBuffer(GL_SHADER_STORAGE_BUFFER, storage);
     GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(result.storage.size() * 4),
                      result.storage.data());
     DeleteBuffers(1, &storage);
   }
+  if (!list.empty()) addDiscarded(request.capture, result);
   if (const GLenum code = glGetError()) result.error = "GL error " + std::to_string(code);
   DeleteFramebuffers(1, &framebuffer);
   glDeleteTextures(static_cast<GLsizei>(textures.size()), textures.data());

@@ -24,7 +24,7 @@ struct DrawRequest {
   std::string vertex_text;                // "" = one that gives `vec2 place` in [0, 1]
   std::vector<std::string> user_outputs;  // bound to locations 0...
   int color_buffers = 1;
-  AttachmentLayout capture{Carrier::uint_attachments, 0, {}, {}, 0};  // words = 0: none
+  AttachmentLayout capture{Carrier::uint_attachments, 0, {}, {}, 0, {}, 0};  // words = 0: none
   std::string storage_block;
   std::vector<std::uint32_t> storage;
   std::map<std::string, Uniform> uniforms;
@@ -32,9 +32,10 @@ struct DrawRequest {
 
 // Rows from the bottom up.
 struct DrawResult {
-  std::string error;                                 // compiler's or linker's log
-  std::vector<std::vector<std::uint32_t>> outputs;   // per colour buffer 4 words a pixel (floats' bits)
-  std::vector<std::vector<std::uint32_t>> captured;  // per pixel capture.words words
+  std::string error;                                // compiler's or linker's log
+  std::vector<std::vector<std::uint32_t>> outputs;  // per colour buffer 4 words a pixel (floats' bits)
+  std::vector<std::vector<std::uint32_t>>
+      captured;  // per pixel capture.words words, of discarded threads too
   std::vector<std::uint32_t> storage;
 };
 

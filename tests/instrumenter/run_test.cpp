@@ -92,16 +92,21 @@ void expectCaptured(const Case& test, const AttachmentShader& instrumented, cons
 
       const auto pixel = static_cast<std::size_t>(y * kSize + x);
       const bool discarded = plain.outputs[0][pixel * 4] == 0 && test.body == &kDiscard;
-      const std::uint32_t mark = discarded ? 0 : last ? kLaunched | kReached : kLaunched;
+      const std::uint32_t mark = (discarded ? kDiscarded : 0) | (last ? kLaunched | kReached : kLaunched);
       ASSERT_EQ(decodeMark(instrumented.layout, result.captured[pixel].data()), mark)
           << "pixel " << x << "," << y << " iterations " << testing::PrintToString(iterations) << "\n"
           << instrumented.text;
-      if (!last || discarded) continue;
+      if (!last) continue;
       ASSERT_EQ(valuesAt(instrumented.layout, result.captured[pixel]), last->values)
           << "pixel " << x << "," << y << " iterations " << testing::PrintToString(iterations) << "\n"
           << instrumented.text;
     }
   }
+}
+
+// kDiscard's keep.
+bool dropped(int v) {
+  return v == 7 || v > 20;
 }
 
 const std::vector<Case>& cases() {
@@ -284,15 +289,46 @@ const std::vector<Case>& cases() {
        "keep",
        When::before,
        {"i"},
-       [](int, int, Trace& trace) {
-         for (int i = 0; i < 4; i++) trace.push_back({{i}, {double(i)}});
+       [](int x, int y, Trace& trace) {
+         for (int i = 0; i < 4 && i != x; i++) {
+           trace.push_back({{i}, {double(i)}});
+           if (dropped(x + y + i)) return;
+         }
        }},
+      {"before_discard_in_a_call",
+       &kDiscard,
+       "drop",
+       When::before,
+       {"v"},
+       [](int x, int y, Trace& trace) {
+         for (int i = 0; i < 4 && i != x; i++)
+           if (dropped(x + y + i)) {
+             if (x + y + i == 7) trace.push_back({{i}, {7.0}});
+             return;
+           }
+       },
+       false,
+       {"keep"}},
+      {"condition_of_discard",
+       &kDiscard,
+       "which",
+       When::after,
+       {"i"},
+       [](int x, int y, Trace& trace) {
+         for (int i = 0; i < 4; i++) {
+           trace.push_back({{i}, {i == x ? 1.0 : 0.0, double(i)}});
+           if (i == x || dropped(x + y + i)) return;
+         }
+       },
+       true},
       {"returned_early",
        &kDiscard,
        "end",
        When::before,
        {"x"},
        [](int x, int y, Trace& trace) {
+         for (int i = 0; i < 4; i++)
+           if (i == x || dropped(x + y + i)) return;
          if (y != 3) trace.push_back({{}, {double(x)}});
        }},
       {"structures_and_matrices",

@@ -169,14 +169,15 @@ void main() {
 
 inline const Body kDiscard{"discard", R"(
 void keep(int v) {
-  if (v == 7) discard;
-  if (v > 20) { discard; }
+  if (v != 7) { if (v > 20) discard; }
+  else discard;             // @drop
 }
 void main() {
   int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
   COLOR = vec4(1.0);
   for (int i = 0; i < 4; i++) {
-    if (i == x) discard;
+    if (i == x)             // @which
+      discard;
     keep(x + y + i);        // @keep
     COLOR.r += float(i);
   }

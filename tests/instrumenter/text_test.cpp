@@ -1,31 +1,13 @@
-// Instrumented texts, construct by construct. Blanks do not count.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
+// Texts with single probes, construct by construct. In the tests below, line 5 is the first of the body.
 #include "shaders.h"
+#include "texts.h"
 
 namespace shadestep::instrumenter::test {
 namespace {
 
-using frontend::CallId;
 using frontend::Shader;
 using frontend::StatementId;
-using frontend::Token;
 using When = Probe::When;
-
-const std::string kHead = "#version 330 core\nin vec2 place;\nout vec4 color;\nuniform int n;\n";
-
-std::string squeezed(std::string text) {
-  std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
-  return text;
-}
-
-// The text's part between two of the user's own markers is compared.
-void expectPart(const std::string& text, const std::string& expected) {
-  EXPECT_NE(squeezed(text).find(squeezed(expected)), std::string::npos)
-      << "no " << expected << "\nin " << text;
-}
 
 std::string single(const Shader& shader, const Probe& probe, const Target& offered = target()) {
   const auto result = instrumentSingle(shader, probe, offered);
@@ -41,7 +23,7 @@ Probe at(const Shader& shader, int line, When when = When::before, std::size_t i
   return probe;
 }
 
-// In the tests below, line 5 is the first of the body. CAPTURE is what a probe without values inserts.
+// CAPTURE is what a probe without values inserts.
 std::string withCapture(std::string text) {
   for (std::size_t at = text.find("CAPTURE"); at != std::string::npos; at = text.find("CAPTURE", at))
     text.replace(at, 7, "sd_words0=uvec4(3u,0u,0u,0u)");
@@ -172,6 +154,34 @@ TEST(Jump, HasNothingBehindIt) {
   expectPart(single(shader, at(shader, 6, When::after)), "failure: Nothing runs after the jump at line 6");
 }
 
+const std::string kDiscarding = "void main() {\nif (n > 1) discard;\nelse color = vec4(0.0);\n}";
+
+TEST(Discard, ListsTheThreadFirst) {
+  const Shader shader = analysed(kHead + kDiscarding);
+  const std::string text = single(shader, at(shader, 6));
+  expectPart(text, "if (n > 1) sd_discard(); else color");
+  expectPart(text, "layout(std430) buffer sd_Discarded { int sd_ended, sd_listed; uvec4 sd_discarded[]; };");
+  expectPart(
+      text,
+      "void sd_discard() { int sd_order = atomicAdd(sd_ended, 1); if (sd_order < sd_listed) {"
+      "sd_discarded[sd_order * 2 + 0] = uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u);"
+      "sd_discarded[sd_order * 2 + 1] = sd_words0; } discard; }");
+}
+
+TEST(Discard, StaysWhereThereIsNoPlaceForAList) {
+  const auto unchanged = [](const std::string& text, const Target& offered) {
+    const Shader shader = analysed(text);
+    expectPart(single(shader, at(shader, 6), offered), "if (n > 1) discard; else");
+  };
+  Target offered = target();
+  offered.storage_buffers = false;
+  unchanged(kHead + kDiscarding, offered);
+  unchanged(
+      "#version 120\nvarying float buffer;\nuniform int n;\nvoid main() {\nfloat c;\nif (n > 1) discard;\n"
+      "else c = buffer; }",
+      target());
+}
+
 TEST(Function, IsClonedForOneCallAlone) {
   const Shader shader = analysed(kHead +
                                  "float f(float a);\nvoid main() {\ncolor = vec4(f(1.0) + f(2.0));\n}\n"
@@ -186,6 +196,43 @@ TEST(Function, IsClonedForOneCallAlone) {
   probe.call_path.clear();
   expectPart(single(shader, probe),
              withCapture("vec4(f(1.0) + f(2.0)); } float f(float a) { CAPTURE; return a; }"));
+}
+
+// The probe inside of the statement at a line, at the `index`th token of this text.
+Probe inside(const Shader& shader, int line, const std::string& token, std::size_t index = 0) {
+  Probe probe = at(shader, line, When::after);
+  const frontend::TokenRange& range = shader.statements[static_cast<std::size_t>(probe.statement)].tokens;
+  for (frontend::TokenIndex i = range.first; i <= range.last; ++i)
+    if (shader.tokens[static_cast<std::size_t>(i)].text == token && index-- == 0) probe.inside = i;
+  return probe;
+}
+
+TEST(Inside, CapturesAfterTheOperandThatDecides) {
+  const Shader shader =
+      analysed(kHead + "void main() {\nbool b = n > 1 && n < 5;\nif (b ? n > 2 : b || n > 3) discard;\n}");
+  expectPart(single(shader, inside(shader, 6, "&&")),
+             withCapture("bool b = (sd_outcome = (n > 1), CAPTURE, sd_outcome) && n < 5;"));
+  expectPart(single(shader, inside(shader, 7, "||")),
+             withCapture("if (b ? n > 2 : (sd_outcome = (b), CAPTURE, sd_outcome) || n > 3)"));
+  expectPart(single(shader, inside(shader, 7, "?")),
+             withCapture("if ((sd_outcome = (b), CAPTURE, sd_outcome) ? n > 2"));
+  expectPart(single(shader, inside(shader, 7, ">")), "failure: There is no operator and no call");
+  EXPECT_EQ(
+      choicesOf(shader, inside(shader, 7, "?").statement),
+      (std::vector<frontend::TokenIndex>{inside(shader, 7, "?").inside, inside(shader, 7, "||").inside}));
+}
+
+TEST(Inside, CapturesAfterACall) {
+  const Shader shader = analysed(kHead +
+                                 "vec2 f(float a) { return vec2(a); }\nvoid g() { }\nvoid main() {\n"
+                                 "color = f(1.0).xyxy + f(2.0).yxyx;\ng();\n}");
+  const std::string text = single(shader, inside(shader, 8, ")", 1));
+  const std::size_t at = text.find("vec2 sd_returned");
+  ASSERT_NE(at, std::string::npos) << text;
+  const std::string buffer = text.substr(at + 5, text.find_first_of(" ;", at + 5) - at - 5);
+  expectPart(text,
+             withCapture("color = f(1.0).xyxy + (" + buffer + " = f(2.0), CAPTURE, " + buffer + ").yxyx;"));
+  expectPart(single(shader, inside(shader, 9, ")")), withCapture("(g(), CAPTURE);"));
 }
 
 TEST(Function, RefusesAPathThatLeadsElsewhere) {
@@ -325,203 +372,6 @@ TEST(Attachments, CarryFloatsWhereThereIsNoBitEncoding) {
   expectPart(single(shader, probe, offered),
              "sd_words0 = vec4(3.0, float(uint(u) & 65535u), float(uint(u) >> 16), f); color");
 }
-
-// ---- recordings
-// ------------------------------------------------------------------------------------------------
-
-RecordingShader recording(const Shader& shader) {
-  const auto result = instrumentRecording(shader, target());
-  if (const auto* failure = std::get_if<Failure>(&result)) throw std::runtime_error(failure->reason);
-  return std::get<RecordingShader>(result);
-}
-
-// One line a record: what, where, which values.
-std::string described(const Shader& shader, const RecordingLayout& layout) {
-  static const char* const names[] = {"enter",     "leave",     "before", "statement",
-                                      "condition", "iteration", "return", "jump"};
-  std::string text;
-  for (const RecordLayout& record : layout.records) {
-    text += names[static_cast<int>(record.event)];
-    text += " " + std::to_string(shader.statements[static_cast<std::size_t>(record.statement)].place.line);
-    for (const Field& field : record.fields) text += " " + (field.name.empty() ? "?" : field.name);
-    text += "\n";
-  }
-  return text;
-}
-
-TEST(Recording, HasARecordForEveryStep) {
-  const Shader shader = analysed(kHead + R"(float f(in float a, out float b) {
-  b = a;
-  if (a > 1.0) return a;
-  return b;
-}
-void main() {
-  float x, y = f(1.0, x);
-  for (int i = 0, j = n; i < j; i++, y += 1.0) {
-    if (y > 4.0) continue;
-    x += y;
-  }
-  while (x > 0.0) break;
-  if (n == 7) discard;
-  color = vec4(x);
-})");
-  EXPECT_EQ(described(shader, recording(shader).layout),
-            "enter 5 a\n"
-            "enter 10\n"
-            "leave 10\n"
-            "statement 6 b\n"
-            "condition 7 ?\n"
-            "return 7 return\n"
-            "return 8 return\n"
-            "before 11\n"
-            "statement 11 x y\n"
-            "before 12\n"
-            "condition 12 ? y i j\n"
-            "iteration 12\n"
-            "condition 13 ?\n"
-            "jump 13\n"
-            "statement 14 x\n"
-            "before 16\n"
-            "condition 16 ?\n"
-            "iteration 16\n"
-            "jump 16\n"
-            "condition 17 ?\n"
-            "jump 17\n"
-            "statement 18 color\n");
-}
-
-TEST(Recording, BuffersReturnedValuesAndEndsDiscardedThreads) {
-  const Shader shader =
-      analysed(kHead + "vec2 f() { return place; }\nvoid main() { if (n > 1) discard; color = f().xyxy; }");
-  const std::string text = recording(shader).text;
-  expectPart(
-      text,
-      "{ vec2 sd_return; return (sd_return = (place), (sd_record(4, 2) && "
-      "(sd_words[sd_at] = floatBitsToInt(sd_return.x), sd_words[sd_at + 1] = floatBitsToInt(sd_return.y), "
-      "true)), sd_return); }");
-  expectPart(text, "{ sd_record(6, 0); sd_end(2); discard; }");
-}
-
-TEST(Recording, LeavesLargeValuesOut) {
-  const Shader shader = analysed(
-      kHead + "void main() {\nfloat a[64], b[65];\na[n] = b[n];\nb[n] = a[n];\ncolor = vec4(a[1]);\n}");
-  EXPECT_EQ(described(shader, recording(shader).layout),
-            "enter 5\nleave 5\nstatement 6 a\nstatement 7 a\nstatement 8\nstatement 9 color\n");
-}
-
-TEST(Recording, HidesAChangedVariableBehindADeclaredOne) {
-  const Shader shader =
-      analysed(kHead + "void main() {\nint i = n;\n{ float i = float(i++); color = vec4(i); }\n}");
-  EXPECT_EQ(described(shader, recording(shader).layout),
-            "enter 5\nleave 5\nstatement 6 i\nstatement 7 i\nstatement 7 color\n");
-}
-
-TEST(Recording, SaysWhatTheDriverLacks) {
-  const std::string body = "void main() {\n}";
-  Target offered = target();
-  offered.storage_buffers = false;
-  auto result = instrumentRecording(analysed(kHead + body), offered);
-  EXPECT_NE(std::get<Failure>(result).reason.find("storage buffers"), std::string::npos);
-  offered = target();
-  offered.bit_encoding = false;
-  result = instrumentRecording(analysed("#version 120\n" + body), offered);
-  EXPECT_NE(std::get<Failure>(result).reason.find("GL_ARB_shader_bit_encoding"), std::string::npos);
-  result = instrumentRecording(analysed("#version 300 es\n" + body), target());
-  EXPECT_NE(std::get<Failure>(result).reason.find("3.10"), std::string::npos);
-}
-
-// ---- properties of whole texts
-// --------------------------------------------------------------------------------
-
-// Every text that the instrumenter makes of a shader.
-std::vector<std::string> allTexts(const Shader& shader) {
-  std::vector<std::string> texts = {uninstrumented(shader)};
-  const auto add = [&texts](const auto& result) {
-    if (const auto* failure = std::get_if<Failure>(&result)) throw std::runtime_error(failure->reason);
-    texts.push_back(std::get<0>(result).text);
-  };
-  std::vector<StatementId> loops;
-  for (std::size_t i = 0; i < shader.statements.size(); ++i) {
-    const frontend::Statement& statement = shader.statements[i];
-    const auto id = static_cast<StatementId>(i);
-    if (statement.kind == frontend::StatementKind::block ||
-        statement.kind == frontend::StatementKind::case_label)
-      continue;
-    const bool jump = statement.kind == frontend::StatementKind::return_ ||
-                      statement.kind == frontend::StatementKind::discard ||
-                      statement.kind == frontend::StatementKind::break_ ||
-                      statement.kind == frontend::StatementKind::continue_;
-    for (const When when : {When::before, When::after}) {
-      if (jump && when == When::after) continue;
-      Probe probe;
-      probe.when = when;
-      probe.statement = id;
-      probe.iterations = {0, 1};
-      add(instrumentSingle(shader, probe, target()));
-      for (std::size_t call = 0; call < shader.calls.size(); ++call) {
-        if (shader.calls[call].callee != statement.function) continue;
-        probe.call_path = {static_cast<CallId>(call)};
-        add(instrumentSingle(shader, probe, target()));
-      }
-    }
-    if (statement.kind == frontend::StatementKind::for_ ||
-        statement.kind == frontend::StatementKind::while_ ||
-        statement.kind == frontend::StatementKind::do_while)
-      loops.push_back(id);
-  }
-  if (shader.profile != "es" || shader.version >= 310) add(instrumentRecording(shader, target()));
-  for (const StatementId loop : loops) add(instrumentLoops(shader, {loop}, target()));
-  add(instrumentCount(shader, {}, target()));
-  if (shader.profile != "es") add(instrumentClock(shader, target()));
-  return texts;
-}
-
-// The user's tokens, as an instrumented text may have them: `main` and gl_FragColor are the only ones to be
-// replaced (calls of cloned functions keep the original's name in the function that was cloned, or read
-// "<prefix>f<depth>").
-bool isSupersequence(const std::vector<Token>& instrumented, const std::vector<Token>& user) {
-  std::size_t next = 0;
-  for (const Token& token : instrumented) {
-    if (next == user.size()) break;
-    const std::string& wanted = user[next].text;
-    const bool replaced = (wanted == "main" && token.text == "sd_main") ||
-                          (wanted == "gl_FragColor" && token.text == "gl_FragData") || token.text == "sd_f0";
-    if (token.text == wanted || replaced) ++next;
-  }
-  return next == user.size();
-}
-
-class WholeText : public testing::TestWithParam<std::tuple<Dialect, Body>> {};
-
-TEST_P(WholeText, ParsesAgainAndKeepsTheUsersTokens) {
-  const auto& [dialect, body] = GetParam();
-  if (dialect.version < body.version) GTEST_SKIP() << "needs GLSL " << body.version;
-  const Shader shader = analysed(dialect.text(body.text));
-  for (const std::string& text : allTexts(shader)) {
-    const frontend::Preprocessed tokens = frontend::preprocess({text}, {});
-    ASSERT_EQ(tokens.error, "") << text;
-    EXPECT_TRUE(isSupersequence(tokens.tokens, shader.tokens)) << text;
-    if (text.find("clock2x32ARB") != std::string::npos)
-      continue;  // analysed only where the extension is declared
-    EXPECT_EQ(frontend::analyse(frontend::Stage::fragment, {text}, {}).error, "") << text;
-  }
-}
-
-TEST_P(WholeText, IsTheUsersWithoutInstrumentation) {
-  const auto& [dialect, body] = GetParam();
-  if (dialect.version < body.version) GTEST_SKIP() << "needs GLSL " << body.version;
-  const Shader shader = analysed(dialect.text(body.text));
-  const std::vector<Token> again = frontend::preprocess({uninstrumented(shader)}, {}).tokens;
-  ASSERT_EQ(again.size(), shader.tokens.size());
-  for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again[i].text, shader.tokens[i].text);
-}
-
-INSTANTIATE_TEST_SUITE_P(All, WholeText,
-                         testing::Combine(testing::ValuesIn(kDialects), testing::ValuesIn(kBodies)),
-                         [](const auto& parameters) {
-                           return std::get<0>(parameters.param).name + "_" +
-                                  std::get<1>(parameters.param).name;
-                         });
 
 }  // namespace
 }  // namespace shadestep::instrumenter::test

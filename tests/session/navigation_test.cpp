@@ -23,6 +23,7 @@ class Walk {
     std::string text = std::to_string(
         analysis_.shader->statements[static_cast<std::size_t>(position_.statement)].place.line - 3);
     for (const int i : position_.iterations) text += "[" + std::to_string(i) + "]";
+    if (position_.calls_done > 0) text += "+" + std::to_string(position_.calls_done);
     return text + (position_.condition ? "?" : "");
   }
 
@@ -137,12 +138,12 @@ TEST(Navigation, StepsIntoCallsInTheOrderTheyRunAndOutAgain) {
       "main() {\n o.x = f(g(1.0)) + f(2.0);\n o.y = 1.0;\n}");
   EXPECT_EQ(walk.here(), "9");
   EXPECT_EQ(walk.into(), "2") << "g first: it is f's argument";
-  EXPECT_EQ(walk.over(), "9") << "returned";
+  EXPECT_EQ(walk.over(), "9+1") << "returned";
   EXPECT_EQ(walk.into(), "5");
-  EXPECT_EQ(walk.out(), "9");
+  EXPECT_EQ(walk.out(), "9+2");
   EXPECT_EQ(walk.into(), "5");
   EXPECT_EQ(walk.over(), "6");
-  EXPECT_EQ(walk.over(), "9");
+  EXPECT_EQ(walk.over(), "9+3");
   EXPECT_EQ(walk.into(), "10") << "no call is left";
 }
 
@@ -157,9 +158,48 @@ TEST(Navigation, ReturnInsideALoopOfACalleeRestoresTheCallersIterations) {
   walk.over();
   EXPECT_EQ(walk.over(), "2[0][0]?");
   EXPECT_EQ(walk.side("true"), "3[0][0]");
-  EXPECT_EQ(walk.over(), "9[0]");
+  EXPECT_EQ(walk.over(), "9[0]+1");
   EXPECT_EQ(walk.over(), "8[1]?");
   EXPECT_EQ(walk.side("false"), "end");
+}
+
+TEST(Navigation, StepsIntoTheCallsOfALoopsHead) {
+  Walk walk(
+      "int g(int x) {\n return x + 1;\n}\nbool f(int x) {\n return x < u;\n}\nvoid main() {\n"
+      " for (int i = g(0); f(i) && f(u); i = g(i)) {\n  o.x = 1.0;\n }\n while (f(1))\n  o.y = 1.0;\n o.z = "
+      "1.0;\n}");
+  EXPECT_EQ(walk.here(), "8");
+  EXPECT_EQ(walk.into(), "8") << "the init";
+  EXPECT_EQ(walk.into(), "2") << "g, called by the init";
+  EXPECT_EQ(walk.over(), "8+1");
+  EXPECT_EQ(walk.into(), "5[0]") << "no increment before the first condition";
+  EXPECT_EQ(walk.over(), "8[0]+2");
+  EXPECT_EQ(walk.into(), "5[0]") << "the second f";
+  EXPECT_EQ(walk.out(), "8[0]+3");
+  EXPECT_EQ(walk.over(), "8[0]?");
+  EXPECT_EQ(walk.side("true"), "9[0]");
+  EXPECT_EQ(walk.into(), "2[0]") << "the increment of iteration 0";
+  EXPECT_EQ(walk.out(), "8[0]+1");
+  EXPECT_EQ(walk.into(), "5[1]") << "the condition decides on iteration 1";
+  EXPECT_EQ(walk.out(), "8[1]+2");
+  EXPECT_EQ(walk.over(), "8[1]?");
+  EXPECT_EQ(walk.side("false"), "11");
+  EXPECT_EQ(walk.into(), "5[0]");
+  EXPECT_EQ(walk.out(), "11[0]+1");
+  EXPECT_EQ(walk.over(), "11[0]?");
+  EXPECT_EQ(walk.side("true"), "12[0]");
+  EXPECT_EQ(walk.over(), "11[1]?") << "over runs the head as a whole";
+}
+
+TEST(Navigation, GoesOverAnIncrementThatCallsToTheConditionOfTheNextIteration) {
+  Walk walk(
+      "int g(int x) {\n return x + 1;\n}\nvoid main() {\n for (int i = 0; i < u; i = g(i))\n  o.x = 1.0;\n}");
+  walk.over();
+  walk.over();
+  EXPECT_EQ(walk.side("true"), "6[0]");
+  EXPECT_EQ(walk.into(), "2[0]");
+  EXPECT_EQ(walk.over(), "5[0]+1");
+  EXPECT_EQ(walk.over(), "5[1]?");
 }
 
 TEST(Navigation, SwitchOffersItsLabelsAndFallsThrough) {

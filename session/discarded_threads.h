@@ -1,0 +1,17 @@
+// Threads that end in a discard, put beside those that attachments show.
+#pragma once
+
+#include <string>
+
+#include "session/session.h"
+
+namespace shadestep::session {
+
+// Gives every pixel that shows no thread of the draw the words of the discarded one there, marked kDiscarded.
+// Of several on a pixel the nearest counts; two equally near ones cannot be told apart from one pass to the
+// next, so such a pixel stays empty. `from_top`: the shader's gl_FragCoord counts rows from the top. Returns
+// which threads are left out all the same, as a sentence for the user; empty if none is.
+std::string addDiscarded(ThreadWords&, const instrumenter::AttachmentLayout&,
+                         const instrumenter::DiscardedThreads&, bool from_top);
+
+}  // namespace shadestep::session
