@@ -191,40 +191,6 @@ Result<WindowShader> instrumentWindow(const frontend::Shader&, const std::vector
 
 Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Target&);
 
-// ---- whole-thread measures ---------------------------------------------------------------------------------
-
-// Per loop of the shader four uint fields: "entries" (times entered), "iterations" (bodies begun, all entries
-// together), "longest" (bodies begun in the longest entry), "cut" (entries that ended although neither the condition
-// nor a jump ended them). Fields are named "<statement id>.entries", ...
-Result<AttachmentShader> instrumentLoops(const frontend::Shader&, const std::vector<frontend::StatementId>& loops,
-                                         const Target&);
-
-// One uint field "steps": statements executed and conditions evaluated (loops: each time). With `statements`, one uint field per statement
-// named by its id: how often it ran. (Ask in batches that fit the draw buffers.)
-Result<AttachmentShader> instrumentCount(const frontend::Shader&, const std::vector<frontend::StatementId>& statements,
-                                         const Target&);
-
-// Two uint fields "low", "high": shader clock ticks from start to end of the thread (GL_ARB_shader_clock).
-Result<AttachmentShader> instrumentClock(const frontend::Shader&, const Target&);
-
-// Every input of the fragment becomes a uniform of the same value for all fragments (thesis 7.2.1).
-struct IsolatedInput {
-  std::string input;      // "texcoord" or "gl_FragCoord", the watch to capture it by
-  std::string uniform;    // name of the uniform that replaces it
-  frontend::Type type;
-};
-struct IsolatedShader {
-  std::string text;             // the user's shader with inputs replaced; nothing is captured
-  std::string baseline_text;    // same inputs and outputs, empty main: what the draw costs without the shader
-  std::string vertex_text;      // a vertex shader for one triangle that covers the target, from gl_VertexID or,
-                                // below GLSL 1.30, from its only attribute: (-1,-1), (3,-1), (-1,3)
-  std::vector<IsolatedInput> inputs;
-};
-Result<IsolatedShader> instrumentIsolate(const frontend::Shader&, const Target&);
-
-// A probe at the start of main that watches the inputs which instrumentIsolate replaces (none, if that fails).
-Probe inputsProbe(const frontend::Shader&);
-
 // The user's shader with every colour output set to `fill` before main. Where what it draws depends on `fill`, it
 // leaves an output undefined. Nothing else is changed and nothing captured.
 Result<std::string> instrumentFilledOutputs(const frontend::Shader&, const Target&, float fill);

@@ -1,11 +1,12 @@
 // Whole-thread measures: loops, executed statements, clock ticks.
+#include <map>
 #include <set>
 
 #include "instrumenter/attachments.h"
 #include "instrumenter/constructs/condition.h"
 #include "instrumenter/constructs/loop.h"
 #include "instrumenter/constructs/statement.h"
-#include "instrumenter/instrumenter.h"
+#include "instrumenter/measures.h"
 
 namespace shadestep::instrumenter {
 
@@ -89,6 +90,50 @@ bool isCounted(const Statement& statement) {
          statement.kind != StatementKind::case_label;
 }
 
+// "" if it can be counted.
+std::string whyNotCounted(const Shader& shader, const std::vector<TextureFetch>& fetches,
+                          const Counted& counted) {
+  const std::string number = std::to_string(counted.id);
+  switch (counted.kind) {
+    case Counted::Kind::runs:
+      if (exists(shader, counted.id) && isCounted(statementAt(shader, counted.id))) return "";
+      return "Statement number " + number + " is no step that could be counted.";
+    case Counted::Kind::taken:
+      if (exists(shader, counted.id) && hasCondition(statementAt(shader, counted.id).kind) &&
+          statementAt(shader, counted.id).kind != StatementKind::switch_)
+        return "";
+      return "Statement number " + number + " has no condition.";
+    case Counted::Kind::entered:
+      if (counted.id >= 0 && static_cast<std::size_t>(counted.id) < shader.functions.size() &&
+          shader.functions[static_cast<std::size_t>(counted.id)].body != frontend::kNone)
+        return "";
+      return "There is no function number " + number + ".";
+    case Counted::Kind::fetched:
+      if (counted.id >= 0 && static_cast<std::size_t>(counted.id) < fetches.size()) return "";
+      return "There is no texture lookup number " + number + ".";
+  }
+  return "";
+}
+
+void count(Draft& draft, Conditions& conditions, const std::vector<TextureFetch>& fetches,
+           const Counted& counted, const std::string& counter) {
+  switch (counted.kind) {
+    case Counted::Kind::runs:
+      return countRuns(draft, conditions, counted.id, counter);
+    case Counted::Kind::taken:
+      return conditions.putAfter(draft.edits, counted.id,
+                                 counter + " += int(" + conditions.outcome(counted.id) + ")");
+    case Counted::Kind::entered: {
+      const frontend::Function& function = draft.shader().functions[static_cast<std::size_t>(counted.id)];
+      return putAtBodyStart(draft.edits, draft.shader(), function.body, counter + "++;");
+    }
+    case Counted::Kind::fetched: {
+      const TextureFetch& fetch = fetches[static_cast<std::size_t>(counted.id)];
+      return draft.edits.wrap({fetch.name, fetch.close}, "(" + counter + "++, ", ")");
+    }
+  }
+}
+
 }  // namespace
 
 namespace {
@@ -131,21 +176,29 @@ Result<AttachmentShader> instrumentLoops(const Shader& shader, const std::vector
   return measures.finish();
 }
 
-Result<AttachmentShader> instrumentCount(const Shader& shader, const std::vector<StatementId>& statements,
+std::string nameOf(const Counted& counted) {
+  constexpr const char* kKinds[] = {"runs.", "taken.", "entered.", "fetched."};
+  return kKinds[static_cast<int>(counted.kind)] + std::to_string(counted.id);
+}
+
+Result<AttachmentShader> instrumentCount(const Shader& shader, const std::vector<Counted>& asked,
                                          const Target& target) {
   Draft draft(shader);
   Conditions conditions(draft);
   Measures measures(draft, target);
-  if (statements.empty()) {
+  if (asked.empty()) {
     const std::string steps = measures.addCounter("steps");
     for (std::size_t i = 0; i < shader.statements.size(); ++i)
       if (isCounted(shader.statements[i])) countRuns(draft, conditions, static_cast<StatementId>(i), steps);
   }
-  for (const StatementId id : std::set<StatementId>(statements.begin(), statements.end())) {
-    if (!exists(shader, id) || !isCounted(statementAt(shader, id)))
-      return Failure{"Statement number " + std::to_string(id) + " is no step that could be counted."};
-    countRuns(draft, conditions, id, measures.addCounter(std::to_string(id)));
+  const std::vector<TextureFetch> fetches = textureFetches(shader);
+  std::map<Counted, std::string> counters;
+  for (const Counted& counted : asked) {
+    const std::string reason = whyNotCounted(shader, fetches, counted);
+    if (!reason.empty()) return Failure{reason};
+    if (!counters.contains(counted)) counters[counted] = measures.addCounter(nameOf(counted));
   }
+  for (const auto& [counted, counter] : counters) count(draft, conditions, fetches, counted, counter);
   return measures.finish();
 }
 
@@ -162,12 +215,14 @@ Result<AttachmentShader> instrumentClock(const Shader& shader, const Target& tar
     draft.declare("int " + start + ", " + end + ";");
     measures.add("low", end + " - " + start);
     measures.add("high", "0");
+    measures.add("start_high", "0");
     return measures.finish("  " + start + " = int(clock2x32ARB().x);\n",
                            "  " + end + " = int(clock2x32ARB().x);\n");
   }
   draft.declare(draft.highp() + "uvec2 " + start + ", " + end + ";");
   measures.add("low", end + ".x - " + start + ".x");
   measures.add("high", end + ".y - " + start + ".y - (" + end + ".x < " + start + ".x ? 1u : 0u)");
+  measures.add("start_high", start + ".y");
   return measures.finish("  " + start + " = clock2x32ARB();\n", "  " + end + " = clock2x32ARB();\n");
 }
 

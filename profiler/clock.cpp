@@ -1,19 +1,17 @@
 // Method `clock`: GL_ARB_shader_clock around each thread, in the program's own draw.
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "profiler/clock_ticks.h"
 #include "profiler/profile_parts.h"
 #include "profiler/statistics.h"
+#include "profiler/work.h"
 
 namespace shadestep::profiler {
 namespace {
 
-// The repeats of every pixel, and what came of them.
-struct Repeats {
-  std::vector<std::vector<double>> ticks;  // per pass, per pixel
-  bool wrapped = false;
-};
+constexpr int kMostPasses = 200;
 
 session::Captured drawOnce(session::Session& session, const session::Prepared& prepared,
                            const instrumenter::AttachmentLayout& layout, bool compare) {
@@ -22,34 +20,49 @@ session::Captured drawOnce(session::Session& session, const session::Prepared& p
   return session.capture(prepared, layout, execute);
 }
 
-std::vector<double> ticksOf(const session::Captured& captured, const CostMap& map, bool& wrapped) {
-  const instrumenter::Field& low = captured.layout.fields.at(0);
-  const instrumenter::Field& high = captured.layout.fields.at(1);
-  std::vector<double> ticks(map.cost.size());
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x) {
-      const std::size_t i = map.index(x, y);
-      if (map.state[i] != PixelState::measured) continue;
-      const std::uint32_t* words = captured.threads.at(x, y);
-      const ClockTicks t = clockTicks(instrumenter::decode(captured.layout, low, words).words.at(0),
-                                      instrumenter::decode(captured.layout, high, words).words.at(0));
+// What the readings of all passes were like.
+struct Readings {
+  std::size_t wrapped = 0, backwards = 0;
+};
+
+// NaN where there is no thread, or the clock went backwards.
+std::vector<double> ticksOf(const session::Captured& captured, const CostMap& map, Readings& readings) {
+  const std::vector<instrumenter::Field>& fields = captured.layout.fields;
+  const std::vector<frontend::Component> components = frontend::components(fields.at(0).type);
+  std::vector<double> ticks(map.cost.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    if (map.state[i] != PixelState::measured) continue;
+    const std::uint32_t* words =
+        captured.threads.data.data() + i * static_cast<std::size_t>(captured.threads.words);
+    std::uint32_t value[3];
+    for (std::size_t f = 0; f < 3; ++f)
+      instrumenter::decodeInto(captured.layout, fields.at(f), components, words, &value[f]);
+    const ClockTicks t = clockTicks(value[0], value[1], value[2]);
+    if (t.kind == ClockTicks::Kind::backwards)
+      ++readings.backwards;
+    else
       ticks[i] = static_cast<double>(t.ticks);
-      wrapped = wrapped || t.wrapped;
-    }
+    readings.wrapped += t.kind == ClockTicks::Kind::wrapped ? 1 : 0;
+  }
   return ticks;
 }
 
-// Each pixel's median over the passes; returns the median of the pixels' spreads.
-double mergePasses(const Repeats& repeats, CostMap& map) {
-  std::vector<double> spreads;
-  std::vector<double> of_pixel(repeats.ticks.size());
-  for (std::size_t i = 0; i < map.cost.size(); ++i) {
-    if (map.state[i] != PixelState::measured) continue;
-    for (std::size_t pass = 0; pass < of_pixel.size(); ++pass) of_pixel[pass] = repeats.ticks[pass][i];
-    map.cost[i] = median(of_pixel);
-    spreads.push_back(relativeSpread(of_pixel));
-  }
-  return median(std::move(spreads));
+void explain(Profile& profile, const Readings& readings) {
+  profile.notes.push_back(
+      "Ticks of the driver's shader clock from the start to the end of each thread, median of " +
+      std::to_string(profile.passes) + " passes, each scaled to the speed of the median pass.");
+  if (profile.grain == Grain{})
+    profile.notes.push_back("No threads were seen to share a clock.");
+  else
+    profile.notes.push_back(
+        "Grain: " + std::to_string(profile.grain.width) + " x " + std::to_string(profile.grain.height) +
+        " pixels read the same clock because they run in step; each pays for the slowest.");
+  if (readings.wrapped > 0)
+    profile.notes.push_back("The clock ran over during " + std::to_string(readings.wrapped) +
+                            " of the readings; this was undone.");
+  if (readings.backwards > 0)
+    profile.notes.push_back("The clock went backwards during " + std::to_string(readings.backwards) +
+                            " of the readings, which were left out.");
 }
 
 }  // namespace
@@ -66,7 +79,7 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
   Profile profile;
   profile.method = Method::clock;
   profile.unit = "ticks";
-  profile.passes = std::max(options.passes, 1);
+  profile.yardstick = test.step;
   const auto result =
       instrumenter::instrumentClock(session.shader(session::Stage::fragment), session.target());
   const instrumenter::AttachmentShader& shader = orThrow(result);
@@ -77,25 +90,35 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
   const session::Captured first = drawOnce(session, prepared, shader.layout, true);
   profile.check = first.execution.check;
   profile.map = coveredPixels(first, options);
-  Repeats repeats;
-  for (int pass = 0; pass < profile.passes; ++pass) {
-    repeats.ticks.push_back(
-        ticksOf(drawOnce(session, prepared, shader.layout, false), profile.map, repeats.wrapped));
-    if (options.progress) options.progress((pass + 1.0) / (profile.passes + (options.lines ? 2 : 0)));
+  Readings readings;
+  std::vector<std::vector<double>> passes;
+  Passes combined;
+  const auto wanted = static_cast<std::size_t>(std::max(options.passes, 2));
+  for (;;) {
+    passes.push_back(ticksOf(drawOnce(session, prepared, shader.layout, false), profile.map, readings));
+    profile.interrupted = options.stop && options.stop();
+    if (options.progress)
+      options.progress(std::min(1.0, static_cast<double>(passes.size()) / static_cast<double>(wanted + 2)));
+    if (passes.size() < wanted && !profile.interrupted) continue;
+    combined = combinePasses(passes);
+    const bool known_well = !options.error || combined.spread <= *options.error;
+    if (known_well || profile.interrupted || passes.size() >= kMostPasses ||
+        stopwatch.seconds() > options.budget)
+      break;
   }
-  profile.spread = mergePasses(repeats, profile.map);
+  profile.passes = static_cast<int>(passes.size());
+  profile.spread = combined.spread;
+  profile.map.cost = combined.cost;
+  profile.uncertainty = combined.uncertainty;
+  profile.grain = detectGrain(profile.map, passes.front());
 
-  if (options.lines) profile.lines = countLines(session, profile.map, profile.check);
+  if (options.lines) {
+    const Counts counts = countAll(session, profile.map, profile.check);
+    describeWork(session.shader(session::Stage::fragment), counts, profile);
+    describeLoops(session, profile);
+  }
   if (options.progress) options.progress(1);
-  profile.notes.push_back(
-      "Ticks of the driver's shader clock from the start to the end of each thread, median of " +
-      std::to_string(profile.passes) + " passes. Threads that run in step (a SIMD group) " +
-      "read the same clock: each pays for the slowest of its group.");
-  if (session.facts().renderer.find("llvmpipe") != std::string::npos)
-    profile.notes.push_back(
-        "Grain: llvmpipe runs groups of 4 x 2 pixels in step where its vectors are 8 wide.");
-  if (repeats.wrapped)
-    profile.notes.push_back("The clock wrapped around during some threads; this was undone.");
+  explain(profile, readings);
   summarize(profile);
   profile.seconds = stopwatch.seconds();
   return profile;

@@ -49,21 +49,110 @@ double ticksFor(session::Session& session, const session::Prepared& prepared,
   std::vector<double> ticks;
   for (std::size_t i = 0; i + 3 < threads.data.size(); i += 4)
     if (threads.data[i] == 1)
-      ticks.push_back(static_cast<double>(clockTicks(threads.data[i + 1], threads.data[i + 2]).ticks));
+      ticks.push_back(static_cast<double>(clockTicks(threads.data[i + 1], threads.data[i + 2], 0).ticks));
   return median(std::move(ticks));
 }
 
 }  // namespace
 
-ClockTicks clockTicks(std::uint32_t low, std::uint32_t high) {
+ClockTicks clockTicks(std::uint32_t low, std::uint32_t high, std::uint32_t start_high) {
   const auto difference = static_cast<std::int64_t>(static_cast<std::uint64_t>(high) << 32 | low);
-  if (difference >= 0) return {static_cast<std::uint64_t>(difference), false};
+  if (difference >= 0) return {static_cast<std::uint64_t>(difference), ClockTicks::Kind::plain};
   for (const int bits : {20, 24, 32, 40, 48, 56}) {
+    const bool in_use = bits <= 32 ? start_high == 0 : start_high >> (bits - 33) == 1;  // and near its end
     const std::int64_t undone = difference + (std::int64_t{1} << bits);
-    if (undone >= 0) return {static_cast<std::uint64_t>(undone), true};
+    if (in_use && undone >= 0) return {static_cast<std::uint64_t>(undone), ClockTicks::Kind::wrapped};
   }
-  return {static_cast<std::uint64_t>(difference),
-          true};  // a counter of 64 bits: the difference is right as it is
+  return {0, ClockTicks::Kind::backwards};
+}
+
+namespace {
+
+// Of the groups with at least two threads, the share whose threads all show the same; -1 if there are none.
+double shareInStep(const CostMap& map, const std::vector<double>& ticks, Grain grain) {
+  int groups = 0;
+  int same = 0;
+  for (int y0 = 0; y0 < map.height; y0 += grain.height)
+    for (int x0 = 0; x0 < map.width; x0 += grain.width) {
+      double first = 0;
+      int threads = 0;
+      bool equal = true;
+      for (int y = y0; y < std::min(y0 + grain.height, map.height); ++y)
+        for (int x = x0; x < std::min(x0 + grain.width, map.width); ++x) {
+          const std::size_t i = map.index(x, y);
+          if (map.state[i] == PixelState::none || std::isnan(ticks[i])) continue;
+          if (threads++ == 0) first = ticks[i];
+          equal = equal && ticks[i] == first;
+        }
+      if (threads < 2) continue;
+      ++groups;
+      same += equal ? 1 : 0;
+    }
+  return groups > 0 ? static_cast<double>(same) / groups : -1;
+}
+
+}  // namespace
+
+Grain detectGrain(const CostMap& map, const std::vector<double>& ticks) {
+  constexpr double kNearlyAll = 0.95;
+  // Where everything takes the same time, that says nothing of who runs in step.
+  if (shareInStep(map, ticks, {map.width, map.height}) >= 1) return {};
+  Grain best;
+  for (int height = 1; height <= 8; height *= 2)
+    for (int width = 1; width <= 32; width *= 2)
+      if (width * height > best.width * best.height && shareInStep(map, ticks, {width, height}) >= kNearlyAll)
+        best = {width, height};
+  return best;
+}
+
+namespace {
+
+double medianOf(const std::vector<std::vector<double>>& passes, const std::vector<double>& scale,
+                std::size_t pixel, std::size_t first, std::size_t step) {
+  std::vector<double> values;
+  for (std::size_t pass = first; pass < passes.size(); pass += step)
+    if (!std::isnan(passes[pass][pixel])) values.push_back(passes[pass][pixel] / scale[pass]);
+  return median(std::move(values));
+}
+
+}  // namespace
+
+Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
+  Passes result;
+  const std::size_t pixels = ticks.front().size();
+  const std::vector<double> none(ticks.size(), 1.0);
+  std::vector<double> middle(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) middle[i] = medianOf(ticks, none, i, 0, 1);
+  std::vector<double> scale;
+  for (const std::vector<double>& pass : ticks) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < pixels; ++i)
+      if (!std::isnan(pass[i]) && middle[i] > 0) ratios.push_back(pass[i] / middle[i]);
+    scale.push_back(ratios.empty() ? 1 : median(std::move(ratios)));
+    if (!(scale.back() > 0)) scale.back() = 1;
+  }
+  result.cost.resize(pixels);
+  result.uncertainty.resize(pixels);
+  std::vector<double> spreads;
+  std::vector<double> deviations;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double cost = medianOf(ticks, scale, i, 0, 1);
+    if (std::isnan(cost)) continue;
+    result.cost[i] = cost;
+    if (!(cost > 0)) continue;
+    const double half =
+        std::abs(medianOf(ticks, scale, i, 0, 2) - medianOf(ticks, scale, i, 1, 2)) / cost / 2;
+    if (!std::isnan(half)) spreads.push_back(half);
+    deviations.clear();
+    for (std::size_t pass = 0; pass < ticks.size(); ++pass)
+      if (!std::isnan(ticks[pass][i])) deviations.push_back(std::abs(ticks[pass][i] / scale[pass] - cost));
+    // 1.4826: standard deviation over median absolute deviation; 1.2533: a median's standard error over a
+    // mean's.
+    result.uncertainty[i] = 1.96 * 1.2533 * 1.4826 * median(deviations) /
+                            std::sqrt(static_cast<double>(std::max<std::size_t>(deviations.size(), 2) - 1));
+  }
+  result.spread = spreads.empty() ? 0 : median(std::move(spreads));
+  return result;
 }
 
 ClockTest testShaderClock(session::Session& session) {
@@ -74,6 +163,7 @@ ClockTest testShaderClock(session::Session& session) {
   const double twice = ticksFor(session, prepared, shader.layout, 2 * kWork);
   const double thrice = ticksFor(session, prepared, shader.layout, 3 * kWork);
   ClockTest test;
+  test.step = (twice - once) / kWork;
   test.ratio = (thrice - once) / (twice - once);
   test.trusted = std::abs(test.ratio - 2) < 0.4;
   if (!test.trusted) {

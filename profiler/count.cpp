@@ -1,5 +1,6 @@
 // Method `count`: statements and conditions executed per thread.
 #include "profiler/profile_parts.h"
+#include "profiler/work.h"
 
 namespace shadestep::profiler {
 
@@ -8,6 +9,7 @@ Profile profileCount(session::Session& session, const ProfileOptions& options) {
   Profile profile;
   profile.method = Method::count;
   profile.unit = "statements";
+  profile.grain = {2, 2};
   const auto shader =
       instrumenter::instrumentCount(session.shader(session::Stage::fragment), {}, session.target());
   const session::Captured captured = session.capture(orThrow(shader));
@@ -23,8 +25,10 @@ Profile profileCount(session::Session& session, const ProfileOptions& options) {
   if (options.progress) options.progress(options.lines ? 0.3 : 1);
 
   if (options.lines) {
-    profile.lines = countLines(session, profile.map, profile.check);
-    shareByHits(profile.lines);
+    const Counts counts = countAll(session, profile.map, profile.check);
+    describeWork(session.shader(session::Stage::fragment), counts, profile);
+    if (options.progress) options.progress(0.8);
+    describeLoops(session, profile);
     if (options.progress) options.progress(1);
   }
   profile.notes.push_back(

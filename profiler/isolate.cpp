@@ -1,25 +1,33 @@
-// Method `isolate` (Strengert 2010, 7.2.1): each measured pixel's thread alone, n x n times, on the CPU's
-// clock.
+// Method `isolate` (Strengert 2010, 7.2.1): each measured pixel's thread alone, n x n times.
 //
-// Against drift (other load, frequency changes) a reference pixel is timed between the others, and all times
-// are scaled by how it moved. Of the repeats of a pixel the fastest counts: disturbances only ever add.
+// Measured in rounds: a coarse grid first, then where the reconstruction is in doubt, until it is known well
+// enough, the time is over or all pixels are measured. Between the pixels, one of them drawn again and again
+// shows how the machine drifts.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
+#include "profiler/drift.h"
 #include "profiler/isolation.h"
 #include "profiler/profile_parts.h"
-#include "profiler/pull_push.h"
-#include "profiler/sample_plan.h"
+#include "profiler/reconstruction.h"
 #include "profiler/statistics.h"
+#include "profiler/work.h"
 
 namespace shadestep::profiler {
 namespace {
 
-constexpr int kVisits = 2;
-constexpr int kRepeats = 3;            // of the draw, per visit
-constexpr int kBetweenReferences = 8;  // pixels
-constexpr double kClear = 20;          // the work takes so many times the timer's uncertainty
-constexpr double kEnough = 2e6;        // ns; a draw this long is measured well on any clock
+constexpr std::size_t kBlock = 24;  // pixels between two looks at the reference pixel
+constexpr int kReferenceRepeats = 3;
+constexpr int kKnownSteps = 200;
+constexpr double kClear = 20;        // the work takes so many times the timer's uncertainty
+constexpr double kEnough = 2e6;      // ns; a draw this long is measured well on any clock
+constexpr std::size_t kCoarse = 64;  // one pixel in so many, at first
+constexpr double kNoisy = 0.5;
+constexpr int kMostRepeats = 60;
+constexpr std::size_t kFewest = 60;
+constexpr std::size_t kJudges = 25;  // held-out samples that an error needs to be believed
 
 double fastest(const std::vector<double>& times) {
   return *std::min_element(times.begin(), times.end());
@@ -28,167 +36,321 @@ double fastest(const std::vector<double>& times) {
 // What is fixed before measuring begins.
 struct Setup {
   int size = 64;         // fragments per side
-  double baseline = 0;   // ns of a draw without the work
-  double per_visit = 0;  // seconds that visiting one pixel takes, references included
+  double per_pixel = 0;  // seconds that one pixel takes
   SameOutput same_output;
-  std::size_t reference = 0;  // pixel of middling cost
+  std::size_t reference = 0;  // pixel of middling cost, to see the machine's drift by
+  bool cleared = true;        // the work of a middling pixel clears the timer's uncertainty
 };
 
 // The smallest square whose draw clears the timer's floor for a pixel of middling cost.
-Setup calibrate(Isolation& isolation) {
-  const std::vector<Sample> probes = planSamples(isolation.covered(), 9);
-  Setup setup;
-  for (const int size : {16, 32, 64, 128}) {
-    setup.size = size;
-    isolation.time(probes.front().pixel, size, 2);  // the driver compiles
-    const std::vector<double> empty = isolation.timeBaseline(probes.front().pixel, size, 15);
-    setup.baseline = fastest(empty);
-    const Stopwatch stopwatch;
-    std::vector<std::pair<double, std::size_t>> costs;
-    for (const Sample& probe : probes)
-      costs.emplace_back(fastest(isolation.time(probe.pixel, size, kRepeats)), probe.pixel);
-    setup.per_visit = stopwatch.seconds() / static_cast<double>(probes.size());
-    std::nth_element(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 2),
-                     costs.end());
-    const auto [cost, pixel] = costs[costs.size() / 2];
-    setup.reference = pixel;
-    const double uncertainty = std::max(1000.0, quantile(empty, 0.75) - quantile(empty, 0.25));
-    if (cost >= kEnough || cost - setup.baseline >= kClear * uncertainty) break;
-  }
-  setup.per_visit *= 1 + 2.0 / kBetweenReferences;
+Setup calibrate(Isolation& isolation, const ProfileOptions& options) {
   std::vector<std::size_t> pixels;
-  for (const Sample& probe : probes) pixels.push_back(probe.pixel);
+  for (const Sample& probe : planSamples(isolation.covered(), 9)) pixels.push_back(probe.pixel);
+  Setup setup;
+  const std::vector<int> sizes =
+      options.size ? std::vector<int>{*options.size} : std::vector<int>{8, 16, 32, 64, 128};
+  for (const int size : sizes) {
+    setup.size = size;
+    isolation.time(std::span(pixels).first(1), size, 2);  // the driver compiles
+    const std::vector<double> empty = isolation.timeBaseline(size, 15);
+    const Stopwatch stopwatch;
+    std::vector<double> costs;
+    for (const std::vector<double>& times : isolation.time(pixels, size, options.repeats))
+      costs.push_back(fastest(times));
+    std::vector<std::size_t> order(pixels.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&costs](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
+    setup.reference = pixels[order[order.size() / 2]];
+    setup.per_pixel = stopwatch.seconds() / static_cast<double>(pixels.size());
+    const double cost = median(costs);
+    const double uncertainty = std::max(500.0, quantile(empty, 0.75) - quantile(empty, 0.25));
+    setup.cleared = cost >= kEnough || cost - fastest(empty) >= kClear * uncertainty;
+    if (setup.cleared) break;
+  }
   setup.same_output = isolation.compareOutputs(pixels);
   return setup;
 }
 
-// One visit of a pixel.
-struct Visit {
-  std::size_t sample = 0;     // index into the plan
-  std::vector<double> times;  // ns
-  std::size_t block = 0;      // between which references
-};
+class Measuring {
+ public:
+  Measuring(Isolation& isolation, const Setup& setup, const ProfileOptions& options)
+      : isolation_(isolation),
+        setup_(setup),
+        options_(options),
+        map_(isolation.covered()),
+        held_out_(map_.state.size()) {
+    for (PixelState& state : map_.state)
+      if (state == PixelState::measured) state = PixelState::reconstructed;
+  }
 
-struct Measurements {
-  std::vector<Visit> visits;
-  std::vector<double> references, baselines;  // one per block
-};
-
-Measurements measure(Isolation& isolation, const Setup& setup, const std::vector<Sample>& plan,
-                     double seconds, const std::function<void(double)>& progress) {
-  const Stopwatch stopwatch;
-  const std::size_t visits = kVisits * plan.size();
-  Measurements result;
-  for (std::size_t i = 0; i < visits; ++i) {
-    if (i % kBetweenReferences == 0) {
-      if (i > 0 && stopwatch.seconds() > seconds) break;
-      result.references.push_back(fastest(isolation.time(setup.reference, setup.size, kRepeats)));
-      result.baselines.push_back(fastest(isolation.timeBaseline(setup.reference, setup.size, kRepeats)));
-      if (progress) progress(static_cast<double>(i) / static_cast<double>(visits));
+  // False: time is over, or it was asked to stop; what was measured until then is there.
+  bool measure(const std::vector<Sample>& plan) {
+    std::vector<std::size_t> pixels;
+    for (const Sample& sample : plan) {
+      if (map_.state[sample.pixel] != PixelState::reconstructed) continue;  // by another pixel of its quad
+      pixels.push_back(sample.pixel);
+      for (const std::size_t pixel : sharing(sample.pixel)) {
+        map_.state[pixel] = PixelState::measured;
+        held_out_[pixel] = sample.held_out ? 1 : 0;
+      }
     }
-    const std::size_t sample = i % plan.size();
-    result.visits.push_back(
-        {sample, isolation.time(plan[sample].pixel, setup.size, kRepeats), result.references.size() - 1});
+    const std::size_t together = atOnce();
+    for (std::size_t first = 0; first < pixels.size(); first += together) {
+      if (over()) {
+        for (; first < pixels.size(); ++first)
+          for (const std::size_t pixel : sharing(pixels[first]))
+            map_.state[pixel] = PixelState::reconstructed;
+        break;
+      }
+      const std::size_t count = std::min(together, pixels.size() - first);
+      pixels_.insert(pixels_.end(), pixels.begin() + static_cast<std::ptrdiff_t>(first),
+                     pixels.begin() + static_cast<std::ptrdiff_t>(first + count));
+      visit(pixels_.size() - count, count);
+    }
+    assign();
+    return !over();
   }
-  return result;
-}
 
-// How much slower than on the whole the device was around a block: the median of the references near it.
-double drift(const std::vector<double>& references, std::size_t block) {
-  const std::size_t first = block < 2 ? 0 : block - 2;
-  const std::size_t last = std::min(block + 3, references.size());
-  return median({references.begin() + static_cast<std::ptrdiff_t>(first),
-                 references.begin() + static_cast<std::ptrdiff_t>(last)}) /
-         median(references);
-}
-
-// Writes the cost of one fragment at every measured pixel; all others of `map` become `reconstructed`.
-// Returns the median of the pixels' spreads.
-double assign(const Measurements& measurements, const std::vector<Sample>& plan, const Setup& setup,
-              CostMap& map) {
-  std::vector<std::vector<double>> times(plan.size());
-  for (const Visit& visit : measurements.visits) {
-    const double slower = drift(measurements.references, visit.block);
-    for (const double time : visit.times) times[visit.sample].push_back(time / slower);
+  // The pixels measured so far once more: for less noise. As `measure`.
+  bool again() {
+    ++rounds_;
+    for (std::size_t first = 0; first < pixels_.size() && !over(); first += atOnce())
+      visit(first, std::min(atOnce(), pixels_.size() - first));
+    assign();
+    return !over();
   }
-  for (PixelState& state : map.state)
-    if (state == PixelState::measured) state = PixelState::reconstructed;
-  const double baseline = median(measurements.baselines);
-  const double fragments = static_cast<double>(setup.size) * setup.size;
-  std::vector<double> spreads;
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    if (times[i].empty()) continue;
-    map.state[plan[i].pixel] = PixelState::measured;
-    map.cost[plan[i].pixel] = std::max(0.0, fastest(times[i]) - baseline) / fragments;
-    spreads.push_back(relativeSpread(times[i]));
+
+  bool over() const { return !visits_.empty() && (stopped() || watch_.seconds() > options_.budget); }
+  bool stopped() const { return options_.stop && options_.stop(); }
+  double elapsed() const { return watch_.seconds(); }
+  const CostMap& map() const { return map_; }
+  const std::vector<std::uint8_t>& heldOut() const { return held_out_; }
+  const Timings& timings() const { return timings_; }
+  double fragments() const { return static_cast<double>(setup_.size) * setup_.size; }
+  std::size_t measured() const { return pixels_.size(); }
+  bool quads() const { return isolation_.quads(); }
+  double yardstick() const { return median(yardsticks_) / fragments() / kKnownSteps; }
+  int repeats() const { return rounds_ * options_.repeats; }  // of the pixels measured longest
+
+ private:
+  // The pixels that have the cost of this one: it, or its quad.
+  std::vector<std::size_t> sharing(std::size_t pixel) const {
+    if (!isolation_.quads()) return {pixel};
+    const int x0 = static_cast<int>(pixel) % map_.width / 2 * 2;
+    const int y0 = static_cast<int>(pixel) / map_.width / 2 * 2;
+    std::vector<std::size_t> pixels;
+    for (int y = y0; y < std::min(y0 + 2, map_.height); ++y)
+      for (int x = x0; x < std::min(x0 + 2, map_.width); ++x)
+        if (map_.state[map_.index(x, y)] != PixelState::none) pixels.push_back(map_.index(x, y));
+    return pixels;
   }
-  return median(std::move(spreads));
+
+  // Pixels whose repeats are spread over the time that all of them take: not all of one meet the same slow
+  // moment.
+  std::size_t atOnce() const {
+    const double seconds = std::min(1.0, options_.budget / 20);
+    return std::clamp(static_cast<std::size_t>(seconds / std::max(setup_.per_pixel, 1e-7)), kBlock / 4,
+                      16 * kBlock);
+  }
+
+  // More repeats of pixels_[first ...].
+  void visit(std::size_t from, std::size_t count) {
+    for (int repeat = 0; repeat < options_.repeats; ++repeat)
+      for (std::size_t first = from; first < from + count; first += kBlock) {
+        const std::span<const std::size_t> block =
+            std::span(pixels_).subspan(first, std::min(kBlock, from + count - first));
+        Visit visit;
+        visit.reference =
+            fastest(isolation_.time(std::span(&setup_.reference, 1), setup_.size, kReferenceRepeats).front());
+        visit.baseline = fastest(isolation_.timeBaseline(setup_.size, kReferenceRepeats));
+        yardsticks_.push_back(isolation_.timeKnown(setup_.size, kKnownSteps, 1).front() - visit.baseline);
+        for (std::size_t i = 0; i < block.size(); ++i) visit.pixels.push_back(first + i);
+        for (const std::vector<double>& times : isolation_.time(block, setup_.size, 1))
+          visit.times.push_back(times.front());
+        visits_.push_back(std::move(visit));
+      }
+  }
+
+  void assign() {
+    timings_ = combine(visits_, pixels_.size());
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+      for (const std::size_t pixel : sharing(pixels_[i])) map_.cost[pixel] = timings_.cost[i] / fragments();
+  }
+
+  Isolation& isolation_;
+  const Setup& setup_;
+  const ProfileOptions& options_;
+  CostMap map_;
+  std::vector<std::uint8_t> held_out_;
+  std::vector<Visit> visits_;
+  std::vector<std::size_t> pixels_;  // in the order in which they were measured
+  Timings timings_;
+  int rounds_ = 1;
+  std::vector<double> yardsticks_;  // ns of draws of known work
+  const Stopwatch watch_;
+};
+
+// The most that any pixel of the group counts: what the group has to run through.
+std::vector<std::uint32_t> mostOfGroup(const std::vector<std::uint32_t>& plane, const CostMap& map,
+                                       Grain grain) {
+  std::vector<std::uint32_t> most(plane.size());
+  const auto first = [&](int x, int y) {
+    return map.index(x / grain.width * grain.width, y / grain.height * grain.height);
+  };
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      most[first(x, y)] = std::max(most[first(x, y)], plane[map.index(x, y)]);
+  for (int y = map.height; y-- > 0;)
+    for (int x = map.width; x-- > 0;) most[map.index(x, y)] = most[first(x, y)];
+  return most;
 }
 
-// Fills the pixels in between, once without those held out to see how well that works, then from all.
-std::optional<Reconstruction> reconstruct(const std::vector<Sample>& plan, CostMap& map) {
-  if (std::find(map.state.begin(), map.state.end(), PixelState::reconstructed) == map.state.end())
-    return std::nullopt;
-  std::vector<std::uint8_t> known(map.state.size());
-  for (std::size_t i = 0; i < known.size(); ++i) known[i] = map.state[i] == PixelState::measured ? 1 : 0;
-  std::vector<std::uint8_t> without = known;
-  for (const Sample& sample : plan)
-    if (sample.held_out) without[sample.pixel] = 0;
-  const std::vector<double> judged = pullPush(map.width, map.height, map.cost, without);
-  std::vector<double> errors;
-  for (const Sample& sample : plan)
-    if (sample.held_out && known[sample.pixel] != 0 && map.cost[sample.pixel] > 0)
-      errors.push_back(std::abs(judged[sample.pixel] - map.cost[sample.pixel]) / map.cost[sample.pixel]);
-
-  const std::vector<double> filled = pullPush(map.width, map.height, map.cost, known);
-  for (std::size_t i = 0; i < map.state.size(); ++i)
-    if (map.state[i] == PixelState::reconstructed) map.cost[i] = filled[i];
-  return Reconstruction{errors.size(), median(errors)};
+// Each plane of counts once, weighed by the operations of what it counts.
+Guide guideFrom(const Counts& counts, const frontend::Shader& shader, const CostMap& map, Grain grain) {
+  const std::vector<double> operations = operationCounts(shader);
+  std::map<std::size_t, double> weights;
+  for (const Counts::Site& site : counts.sites)
+    if (site.what.kind == instrumenter::Counted::Kind::runs)
+      weights[site.plane] += operations[static_cast<std::size_t>(site.what.id)];
+  Guide guide;
+  for (const auto& [plane, weight] : weights) {
+    guide.planes.push_back(mostOfGroup(counts.planes[plane], map, grain));
+    guide.prior.push_back(weight);
+  }
+  return guide;
 }
 
-void explain(Profile& profile, const Setup& setup, const frontend::Traits& traits) {
+// Measures in rounds until it is enough; the estimate of the last round.
+Estimate measureInRounds(Measuring& measuring, const Setup& setup, const Guide& guide, std::size_t covered,
+                         const ProfileOptions& options) {
+  const double left = options.budget - measuring.elapsed();
+  const double affordable = std::max<double>(16, left / std::max(setup.per_pixel, 1e-7));
+  const bool all = !options.error && !options.share && affordable >= static_cast<double>(covered);
+  std::size_t first = std::clamp(covered / kCoarse, std::min(kFewest, covered), covered);
+  if (options.share)
+    first = std::max<std::size_t>(
+        4, static_cast<std::size_t>(std::lround(*options.share * static_cast<double>(covered))));
+  else if (all)
+    first = covered;
+  else
+    first = std::min(first, static_cast<std::size_t>(std::max(16.0, affordable / 2)));
+
+  const std::size_t pixels_per_sample = measuring.quads() ? 4 : 1;
+  bool more = measuring.measure(planSamples(measuring.map(), first));
+  for (unsigned round = 1;; ++round) {
+    Estimate result = estimate(measuring.map(), measuring.heldOut(), guide);
+    const bool enough = options.error && result.quality.held_out >= kJudges * pixels_per_sample &&
+                        result.quality.error <= *options.error;
+    if (options.progress) {
+      const double by_time = measuring.elapsed() / options.budget;
+      const double by_pixels = static_cast<double>(measuring.measured()) / static_cast<double>(covered);
+      options.progress(std::min(1.0, std::max(by_time, by_pixels)));
+    }
+    if (!more || enough || options.share) return result;
+    // The error at held-out pixels holds the noise of their own measurement: where that is most of it, more
+    // pixels would not help.
+    if (measuring.timings().noise > kNoisy * result.quality.error && measuring.repeats() < kMostRepeats) {
+      more = measuring.again();
+      continue;
+    }
+    const std::size_t now = measuring.measured();
+    const auto spacing =
+        static_cast<int>(std::sqrt(static_cast<double>(covered) / static_cast<double>(now)) / 2);
+    const std::vector<Sample> next =
+        refine(measuring.map(), result.doubt, std::max<std::size_t>(kBlock, now / 3), spacing, round);
+    if (next.empty()) return result;  // all is measured
+    more = measuring.measure(next);
+  }
+}
+
+void explain(Profile& profile, const Setup& setup, const Isolation& isolation) {
   const std::string n = std::to_string(setup.size);
   profile.notes.push_back(
-      "CPU-clock time of a draw of " + n + " x " + n +
-      " copies of one pixel's thread, the empty draw subtracted, per copy. The device runs several copies at "
-      "once and all read the same memory: compare pixels with each other; the sum is not the time of the "
-      "program's draw.");
+      std::string(isolation.timer().kind == Timer::Kind::cpu ? "CPU time" : "Wall-clock time") +
+      " of a draw of " + n + " x " + n + " copies of " +
+      (isolation.quads() ? "the four threads of a pixel's quad" : "one pixel's thread") +
+      ", the empty draw subtracted, per copy; drift of the machine taken out by one "
+      "pixel drawn again and again in between. All "
+      "copies read the same memory, so caches serve them better than the program's draw.");
+  if (!isolation.timerNote().empty()) profile.notes.push_back(isolation.timerNote());
   const auto [tried, same] = setup.same_output;
   if (same < tried)
     profile.notes.push_back("Only " + std::to_string(same) + " of " + std::to_string(tried) +
                             " threads tried alone give the very colours of the program's draw; blending or "
                             "overlapping fragments may be why, else their cost may differ too.");
-  if (traits.uses_derivatives)
+  if (isolation.quads())
     profile.notes.push_back(
-        "The shader uses derivatives or texture lookups with implicit level of detail: between "
-        "identical fragments these are 0, so it may read other levels here than in the program.");
+        "Measured by quads of 2 x 2 pixels, because the shader's derivatives or implicit levels of detail "
+        "depend on "
+        "the neighbours: the four share one cost.");
+  if (isolation.continued() > 0)
+    profile.notes.push_back("At the draw's edge " + std::to_string(isolation.continued()) +
+                            " inputs of neighbours outside of it were continued linearly.");
+  if (!setup.cleared)
+    profile.notes.push_back(
+        "The shader costs so little that even the largest draw does not clear the timer's uncertainty: the "
+        "costs are "
+        "upper bounds.");
 }
 
 }  // namespace
 
 Profile profileIsolate(session::Session& session, const ProfileOptions& options) {
   const Stopwatch stopwatch;
+  const frontend::Shader& shader = session.shader(session::Stage::fragment);
   Isolation isolation(session, options);
-  const Setup setup = calibrate(isolation);
+  const Setup setup = calibrate(isolation, options);
   Profile profile;
   profile.method = Method::isolate;
   profile.unit = "ns";
-  profile.passes = kVisits * kRepeats;
-  profile.map = isolation.covered();
+  profile.passes = options.repeats;
   profile.check = isolation.check();
   profile.same_output = setup.same_output;
-  if (options.lines) profile.lines = countLines(session, profile.map, profile.check);
+  profile.timer = isolation.timer().name();
+  if (isolation.quads()) profile.grain = {2, 2};
 
-  const double left = std::max(options.budget - stopwatch.seconds(), 0.1 * options.budget);
-  const auto affordable =
-      static_cast<std::size_t>(std::max(16.0, left / kVisits / std::max(setup.per_visit, 1e-6)));
-  const std::vector<Sample> plan = planSamples(profile.map, affordable);
-  const Measurements measurements = measure(isolation, setup, plan, left, options.progress);
-  profile.spread = assign(measurements, plan, setup, profile.map);
-  profile.reconstruction = reconstruct(plan, profile.map);
+  Counts counts;
+  try {
+    counts = countAll(session, isolation.covered(), profile.check);
+  } catch (const session::Error& error) {
+    if (error.outcome() != session::Outcome::cannot_debug) throw;
+    profile.notes.push_back(std::string("Nothing could be counted: ") + error.what() + ".");
+  }
+  const std::size_t covered = isolation.covered().costs().size();
+  if (options.budget < setup.per_pixel)
+    throw session::Error(session::Outcome::usage,
+                         "--budget is too small to measure a single pixel, which takes " +
+                             std::to_string(setup.per_pixel) + " s here");
+  Measuring measuring(isolation, setup, options);
+  const Estimate result = measureInRounds(
+      measuring, setup, guideFrom(counts, shader, isolation.covered(), profile.grain), covered, options);
+  profile.interrupted = measuring.stopped();
+  profile.passes = measuring.repeats();
+
+  profile.map = measuring.map();
+  profile.map.cost = result.cost;
+  const Timings& timings = measuring.timings();
+  profile.spread = timings.spread;
+  profile.yardstick = measuring.yardstick();
+  if (std::find(profile.map.state.begin(), profile.map.state.end(), PixelState::reconstructed) !=
+      profile.map.state.end())
+    profile.reconstruction = result.quality;
+  const double measured_error = 1.96 * timings.noise;
+  const double reconstructed_error = 1.96 * result.quality.error;
+  profile.uncertainty.resize(profile.map.cost.size());
+  for (std::size_t i = 0; i < profile.uncertainty.size(); ++i)
+    if (profile.map.state[i] != PixelState::none)
+      profile.uncertainty[i] = profile.map.cost[i] * (profile.map.state[i] == PixelState::measured
+                                                          ? measured_error
+                                                          : std::hypot(measured_error, reconstructed_error));
+
+  if (options.lines) {
+    if (!counts.sites.empty()) describeWork(shader, counts, profile);
+    describeLoops(session, profile);
+  }
   if (options.progress) options.progress(1);
-
-  explain(profile, setup, session.shader(session::Stage::fragment).traits);
+  explain(profile, setup, isolation);
   summarize(profile);
   profile.seconds = stopwatch.seconds();
   return profile;

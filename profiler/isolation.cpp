@@ -1,26 +1,122 @@
 #include "profiler/isolation.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "profiler/profile_parts.h"
 
 namespace shadestep::profiler {
+namespace {
+
+constexpr std::size_t kRequestBytes = 65536;  // a request is one packet of a socket
+constexpr std::size_t kSetOverhead = 200;     // of one set of uniforms in a request
+constexpr std::uint32_t kGlInt = 0x1404;
+constexpr std::uint32_t kGlFloatVec4 = 0x8B52;
+constexpr std::uint32_t kGlUintVec4 = 0x8DC8;
+
+double fastest(const std::vector<double>& times) {
+  return *std::min_element(times.begin(), times.end());
+}
+
+std::vector<double> nanoseconds(const std::vector<std::chrono::nanoseconds>& times) {
+  std::vector<double> result;
+  for (const std::chrono::nanoseconds time : times) result.push_back(static_cast<double>(time.count()));
+  return result;
+}
+
+}  // namespace
+
+TimerTest testTimer(double once, double twice, double thrice) {
+  TimerTest test;
+  test.ratio = (thrice - once) / (twice - once);
+  test.trusted = twice > once && std::abs(test.ratio - 2) < 0.4;
+  return test;
+}
 
 Isolation::Isolation(session::Session& session, const ProfileOptions& options) : session_(session) {
-  const auto result =
-      instrumenter::instrumentIsolate(session.shader(session::Stage::fragment), session.target());
-  const instrumenter::IsolatedShader& shader = orThrow(result);
-  captureInputs(shader.inputs, options);
-  isolated_ = session.prepareCovering(shader.text, shader.vertex_text);
-  baseline_ = session.prepareCovering(shader.baseline_text, shader.vertex_text);
+  const frontend::Shader& shader = session.shader(session::Stage::fragment);
+  if (shader.traits.uses_derivatives || options.quads) mode_ = instrumenter::Isolation::quad;
+  const auto result = instrumenter::instrumentIsolate(shader, session.target(), mode_);
+  shader_ = orThrow(result);
+  captureInputs(shader_.inputs, options);
+  isolated_ = session.prepareCovering(shader_.text, shader_.vertex_text);
+  baseline_ = session.prepareCovering(shader_.baseline_text, shader_.vertex_text);
+  known_ = session.prepareCovering(shader_.work_text, shader_.vertex_text);
+  chooseTimer();
 }
 
-std::vector<double> Isolation::time(std::size_t pixel, int size, int repeats) {
-  return draw(isolated_, pixel, size, repeats);
+// Where the "GPU" is the CPU, the CPU time of the program's threads is the cost itself, and other programs'
+// load does not disturb it. On a device of its own it is nearly nothing, and does not grow with the work.
+void Isolation::chooseTimer() {
+  constexpr int kSize = 32;
+  constexpr int kRounds = 5;
+  constexpr int kRepeats = 4;
+  constexpr int kSteps = 300;
+  timeKnown(kSize, kSteps, 2);  // the driver compiles
+  for (const Timer::Kind kind : {Timer::Kind::cpu, Timer::Kind::wall}) {
+    timer_.kind = kind;
+    // In turns, so that a slow moment meets all three; the fastest counts.
+    std::array<double, 3> times;
+    times.fill(std::numeric_limits<double>::infinity());
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t i = 0; i < times.size(); ++i)
+        times[i] = std::min(times[i], fastest(timeKnown(kSize, kSteps * static_cast<int>(i + 1), kRepeats)));
+      if (round >= 1 && testTimer(times[0], times[1], times[2]).trusted) return;
+    }
+    char numbers[160];
+    std::snprintf(numbers, sizeof numbers,
+                  "%.0f, %.0f and %.0f ns for one, two and three times the same work", times[0], times[1],
+                  times[2]);
+    timer_note_ += std::string(timer_note_.empty() ? "The " : " The ") + timer_.name() +
+                   " does not run in proportion to the work (" + numbers + ").";
+  }
+  throw session::Error(session::Outcome::cannot_debug, "no timer can be trusted here. " + timer_note_ +
+                                                           " Use --method clock or --method count");
 }
 
-std::vector<double> Isolation::timeBaseline(std::size_t pixel, int size, int repeats) {
-  return draw(baseline_, pixel, size, repeats);
+// In every round another order: what disturbs periodically (a scheduler's slices) must not meet the same
+// pixel again and again.
+std::vector<std::vector<double>> Isolation::time(std::span<const std::size_t> pixels, int size, int repeats) {
+  std::vector<std::size_t> order(pixels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> drawn;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    std::shuffle(order.begin(), order.end(), random_);
+    drawn.insert(drawn.end(), order.begin(), order.end());
+  }
+  const std::size_t bytes =
+      static_cast<std::size_t>(shader_.vectors_per_thread) * (quads() ? 64 : 16) + kSetOverhead;
+  const std::size_t at_once = std::max<std::size_t>(1, kRequestBytes / bytes);
+  std::vector<std::vector<double>> result(pixels.size());
+  for (std::size_t first = 0; first < drawn.size(); first += at_once) {
+    const std::span<const std::size_t> now =
+        std::span(drawn).subspan(first, std::min(at_once, drawn.size() - first));
+    session::ExecuteOptions execute;
+    execute.covering_size = size;
+    for (const std::size_t i : now) execute.sets.push_back(inputsOf(pixels[i]));
+    const std::vector<double> times = draw(isolated_, execute);
+    for (std::size_t i = 0; i < now.size(); ++i) result[now[i]].push_back(times[i]);
+  }
+  return result;
+}
+
+std::vector<double> Isolation::timeBaseline(int size, int repeats) {
+  session::ExecuteOptions execute;
+  execute.covering_size = size;
+  execute.repeats = repeats;
+  return draw(baseline_, execute);
+}
+
+std::vector<double> Isolation::timeKnown(int size, int steps, int repeats) {
+  session::ExecuteOptions execute;
+  execute.covering_size = size;
+  execute.repeats = repeats;
+  execute.uniforms = {{shader_.work_uniform, kGlInt, {static_cast<std::uint32_t>(steps)}}};
+  return draw(known_, execute);
 }
 
 void Isolation::captureInputs(const std::vector<instrumenter::IsolatedInput>& wanted,
@@ -42,29 +138,35 @@ void Isolation::captureInputs(const std::vector<instrumenter::IsolatedInput>& wa
     if (probe.watches.size() == before && before > 0)
       throw session::Error(session::Outcome::cannot_debug,
                            "the driver's draw buffers have no room for the shader's input '" +
-                               probe.watches.front().expression + "'; use --method count");
+                               probe.watches.front().expression + "'; use --method clock or --method count");
   } while (!probe.watches.empty());
 }
 
 void Isolation::keep(const session::Captured& captured,
                      const std::vector<instrumenter::IsolatedInput>& wanted) {
+  const auto stride = static_cast<std::size_t>(4 * shader_.vectors_per_thread);
+  words_.resize(covered_.cost.size() * stride);
+  is_float_.resize(stride);
   for (const instrumenter::Field& field : captured.layout.fields)
     for (const instrumenter::IsolatedInput& input : wanted) {
       if (input.input != field.name) continue;
-      Input kept{{input.uniform, session::glUniformType(input.type), {}}, {}, 0};
-      if (kept.uniform.gl_type == 0)
-        throw session::Error(
-            session::Outcome::cannot_debug,
-            "the shader's input '" + input.input + "' is a " + frontend::glslName(input.type) +
-                ", which cannot be handed over as one uniform; use --method clock or --method count");
-      kept.words_per_pixel = static_cast<std::size_t>(frontend::wordCount(field.type));
-      kept.words.reserve(covered_.cost.size() * kept.words_per_pixel);
-      for (int y = 0; y < covered_.height; ++y)
-        for (int x = 0; x < covered_.width; ++x) {
-          const auto value = instrumenter::decode(captured.layout, field, captured.threads.at(x, y));
-          kept.words.insert(kept.words.end(), value.words.begin(), value.words.end());
-        }
-      inputs_.push_back(std::move(kept));
+      const std::vector<frontend::Component> components = frontend::components(field.type);
+      const auto first = static_cast<std::size_t>(input.first_word);
+      for (std::size_t c = 0; c < components.size() && field.type.basic != frontend::Basic::double_; ++c)
+        if (components[c].basic == frontend::Basic::float_ &&
+            components.size() == static_cast<std::size_t>(frontend::wordCount(field.type)))
+          is_float_[first + c] = 1;
+      const bool truth = shader_.floats && field.type.basic == frontend::Basic::bool_;
+      std::vector<std::uint32_t> value(static_cast<std::size_t>(frontend::wordCount(field.type)));
+      for (std::size_t i = 0; i < covered_.cost.size(); ++i) {
+        instrumenter::decodeInto(
+            captured.layout, field, components,
+            captured.threads.data.data() + i * static_cast<std::size_t>(captured.threads.words),
+            value.data());
+        for (std::size_t w = 0; w < value.size(); ++w)
+          words_[i * stride + first + w] =
+              truth && value[w] != 0 ? std::bit_cast<std::uint32_t>(1.0F) : value[w];
+      }
     }
 }
 
@@ -76,40 +178,78 @@ SameOutput Isolation::compareOutputs(const std::vector<std::size_t>& pixels) {
   const std::vector<session::ColorOutput> expected = session_.execute(original, whole).outputs;
   SameOutput result;
   for (const std::size_t pixel : pixels) {
-    session::ExecuteOptions one = optionsFor(pixel, 1);
+    session::ExecuteOptions one;
+    one.compare = false;
+    one.read_captures = false;
     one.read_outputs = true;
+    one.covering_size = 2;
+    one.uniforms = inputsOf(pixel);
     const std::vector<session::ColorOutput> found = session_.execute(isolated_, one).outputs;
+    const std::size_t x = pixel % static_cast<std::size_t>(covered_.width);
+    const std::size_t y = pixel / static_cast<std::size_t>(covered_.width);
+    const std::size_t lane = y % 2 * 2 + x % 2;
     bool same = found.size() >= expected.size();
     for (std::size_t i = 0; same && i < expected.size(); ++i)
-      same = std::equal(found[i].words.begin(), found[i].words.begin() + 4,
-                        expected[i].words.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
+      same = std::equal(expected[i].words.begin() + static_cast<std::ptrdiff_t>(4 * pixel),
+                        expected[i].words.begin() + static_cast<std::ptrdiff_t>(4 * pixel + 4),
+                        found[i].words.begin() + static_cast<std::ptrdiff_t>(4 * lane));
     ++result.tried;
     result.same += same ? 1 : 0;
   }
   return result;
 }
 
-session::ExecuteOptions Isolation::optionsFor(std::size_t pixel, int size) const {
-  session::ExecuteOptions execute;
-  execute.compare = false;
-  execute.read_captures = false;
-  execute.covering_size = size;
-  for (const Input& input : inputs_) {
-    const auto first = input.words.begin() + static_cast<std::ptrdiff_t>(pixel * input.words_per_pixel);
-    execute.uniforms.push_back(input.uniform);
-    execute.uniforms.back().words.assign(first, first + static_cast<std::ptrdiff_t>(input.words_per_pixel));
+// The inputs of a thread that the draw may not have: where it does not, they are continued from the threads
+// on the other side of the fallback, which it has. What is no float is the fallback's own.
+std::vector<std::uint32_t> Isolation::wordsAt(int x, int y, int fallback_x, int fallback_y) {
+  const auto stride = static_cast<std::ptrdiff_t>(4 * shader_.vectors_per_thread);
+  const auto at = [&](int px, int py) {
+    return words_.begin() + static_cast<std::ptrdiff_t>(covered_.index(px, py)) * stride;
+  };
+  const auto has = [&](int px, int py) {
+    return px >= 0 && py >= 0 && px < covered_.width && py < covered_.height &&
+           covered_.state[covered_.index(px, py)] != PixelState::none;
+  };
+  if (has(x, y)) return {at(x, y), at(x, y) + stride};
+  std::vector<std::uint32_t> words(at(fallback_x, fallback_y), at(fallback_x, fallback_y) + stride);
+  ++continued_;
+  for (const auto& [dx, dy] : {std::pair{x - fallback_x, 0}, std::pair{0, y - fallback_y}}) {
+    if ((dx == 0 && dy == 0) || !has(fallback_x - dx, fallback_y - dy)) continue;
+    const auto here = at(fallback_x, fallback_y);
+    const auto behind = at(fallback_x - dx, fallback_y - dy);
+    for (std::size_t w = 0; w < words.size(); ++w) {
+      if (is_float_[w] == 0) continue;
+      const auto i = static_cast<std::ptrdiff_t>(w);
+      words[w] = std::bit_cast<std::uint32_t>(std::bit_cast<float>(words[w]) + std::bit_cast<float>(here[i]) -
+                                              std::bit_cast<float>(behind[i]));
+    }
   }
-  return execute;
+  return words;
 }
 
-std::vector<double> Isolation::draw(const session::Prepared& prepared, std::size_t pixel, int size,
-                                    int repeats) {
-  session::ExecuteOptions execute = optionsFor(pixel, size);
-  execute.repeats = repeats;
-  std::vector<double> nanoseconds;
-  for (const std::chrono::nanoseconds time : session_.execute(prepared, execute).times)
-    nanoseconds.push_back(static_cast<double>(time.count()));
-  return nanoseconds;
+std::vector<session::Uniform> Isolation::inputsOf(std::size_t pixel) {
+  if (shader_.words_uniform.empty()) return {};
+  const int x = static_cast<int>(pixel % static_cast<std::size_t>(covered_.width));
+  const int y = static_cast<int>(pixel / static_cast<std::size_t>(covered_.width));
+  session::Uniform uniform{shader_.words_uniform, shader_.floats ? kGlFloatVec4 : kGlUintVec4, {}};
+  if (!quads()) {
+    uniform.words = wordsAt(x, y, x, y);
+  } else {
+    for (int lane = 0; lane < 4; ++lane) {
+      const std::vector<std::uint32_t> words = wordsAt(x / 2 * 2 + lane % 2, y / 2 * 2 + lane / 2, x, y);
+      uniform.words.insert(uniform.words.end(), words.begin(), words.end());
+    }
+  }
+  return {std::move(uniform)};
+}
+
+std::vector<double> Isolation::draw(const session::Prepared& prepared,
+                                    const session::ExecuteOptions& options) {
+  session::ExecuteOptions execute = options;
+  execute.compare = false;
+  execute.read_captures = false;
+  const session::Execution executed = session_.execute(prepared, execute);
+  return nanoseconds(timer_.kind == Timer::Kind::cpu ? executed.cpu_times : executed.times);
 }
 
 }  // namespace shadestep::profiler

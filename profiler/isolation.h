@@ -1,48 +1,77 @@
-// One pixel's thread on its own: its inputs captured once for all pixels, then handed to n x n identical
-// fragments as uniforms (Strengert 2010, 7.2.1). Internal.
+// One pixel's thread (or one quad's four) on its own: the inputs captured once for all pixels, then handed to
+// n x n fragments (Strengert 2010, 7.2.1). Internal.
 #pragma once
 
+#include <random>
 #include <span>
 #include <vector>
 
+#include "instrumenter/measures.h"
 #include "profiler/profile.h"
 
 namespace shadestep::profiler {
 
+// Which of the two clocks of a draw is believed.
+struct Timer {
+  enum class Kind { cpu, wall } kind = Kind::cpu;
+  const char* name() const { return kind == Kind::cpu ? "CPU time" : "wall clock"; }
+};
+// Times of one, two and three times the same work, as a timer gave them: does it run in proportion? `ratio`:
+// what the two added thirds took over what one took; 2 is right.
+struct TimerTest {
+  bool trusted = false;
+  double ratio = 0;
+};
+TimerTest testTimer(double once, double twice, double thrice);
+
 class Isolation {
  public:
-  // Captures the inputs of all threads and prepares the isolated shader and the empty one with the same
-  // interface. Throws session::Error where that does not work.
+  // Captures the inputs of all threads, prepares the isolated shader, the empty one with the same outputs and
+  // one of known work, and chooses the timer. Quads where the shader uses derivatives or implicit levels of
+  // detail, or where asked for. Throws session::Error where that does not work, or no timer can be trusted.
   Isolation(session::Session&, const ProfileOptions&);
 
   // The pixels that have a thread, all `measured`.
   const CostMap& covered() const { return covered_; }
   const session::Check& check() const { return check_; }
+  bool quads() const { return mode_ == instrumenter::Isolation::quad; }
+  const Timer& timer() const { return timer_; }
+  // CPU time cannot be had of a device of its own; why the other timer was not taken.
+  const std::string& timerNote() const { return timer_note_; }
+  // Quads with a neighbour outside the draw, whose inputs are continued linearly from inside.
+  std::size_t continued() const { return continued_; }
 
-  // Nanoseconds of `repeats` draws of size x size fragments, all doing the work of one pixel's thread.
-  std::vector<double> time(std::size_t pixel, int size, int repeats);
+  // Nanoseconds of draws of size x size fragments, all doing the work of one pixel's thread (of its quad's):
+  // result[pixel][repeat]. All pixels are drawn once, then all again in another order.
+  std::vector<std::vector<double>> time(std::span<const std::size_t> pixels, int size, int repeats);
   // The same draws without the work.
-  std::vector<double> timeBaseline(std::size_t pixel, int size, int repeats);
+  std::vector<double> timeBaseline(int size, int repeats);
+  // The same draws with `steps` steps of known work.
+  std::vector<double> timeKnown(int size, int steps, int repeats);
+
   // Compares the colour outputs of these pixels' threads, alone, with those of the program's own draw.
   SameOutput compareOutputs(const std::vector<std::size_t>& pixels);
 
  private:
-  // The captured values of one input.
-  struct Input {
-    session::Uniform uniform;          // without words
-    std::vector<std::uint32_t> words;  // per pixel
-    std::size_t words_per_pixel = 0;
-  };
   void captureInputs(const std::vector<instrumenter::IsolatedInput>&, const ProfileOptions&);
   void keep(const session::Captured&, const std::vector<instrumenter::IsolatedInput>&);
-  session::ExecuteOptions optionsFor(std::size_t pixel, int size) const;
-  std::vector<double> draw(const session::Prepared&, std::size_t pixel, int size, int repeats);
+  void chooseTimer();
+  std::vector<session::Uniform> inputsOf(std::size_t pixel);
+  std::vector<std::uint32_t> wordsAt(int x, int y, int fallback_x, int fallback_y);
+  std::vector<double> draw(const session::Prepared&, const session::ExecuteOptions&);
 
   session::Session& session_;
   CostMap covered_;
   session::Check check_;
-  std::vector<Input> inputs_;
-  session::Prepared isolated_, baseline_;
+  instrumenter::Isolation mode_ = instrumenter::Isolation::plain;
+  instrumenter::IsolatedShader shader_;
+  std::vector<std::uint32_t> words_;    // 4 * vectors_per_thread for each pixel
+  std::vector<std::uint8_t> is_float_;  // per word of a thread: may be continued linearly
+  session::Prepared isolated_, baseline_, known_;
+  Timer timer_;
+  std::string timer_note_;
+  std::size_t continued_ = 0;
+  std::mt19937 random_{1};
 };
 
 }  // namespace shadestep::profiler

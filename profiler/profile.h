@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "profiler/cost_map.h"
+#include "profiler/counts.h"
+#include "session/loops.h"
 #include "session/session.h"
 
 namespace shadestep::profiler {
@@ -31,20 +33,30 @@ struct Region {
 };
 
 struct ProfileOptions {
-  std::optional<Region> roi;  // nothing else is profiled; parts outside the draw's target are ignored
-  int passes = 5;             // clock: draws, of which each pixel's median counts; at least 1
-  double budget = 12;         // isolate: seconds of measuring
-  bool lines = true;          // also count executions per source line
+  std::optional<Region> roi;    // nothing else is profiled; parts outside the draw's target are ignored
+  int passes = 5;               // clock: draws; at least 2. With `error`: at least so many
+  double budget = 12;           // seconds of measuring (isolate, and clock with `error`); may be infinite
+  std::optional<double> error;  // stop once the map is known this well: 0.05 = 5% (isolate: of the
+                                // reconstruction; clock: between halves of the passes)
+  std::optional<double>
+      share;                // isolate: measure this share of the pixels on a regular grid, no more, no fewer
+  std::optional<int> size;  // isolate: fragments per side of a measured draw, instead of a calibrated number
+  int repeats = 5;          // isolate: draws of a measured pixel; at least 2
+  bool quads = false;       // isolate: measure quads even where the shader would not need them
+  bool lines = true;        // also count executions per line, branch, call, lookup and loop
   // Called now and then with the share done, 0..1.
   std::function<void(double)> progress;
+  // Asked now and then: true ends measuring; what was measured until then is the result.
+  std::function<bool()> stop;
 };
 
-// How well pixels that were not measured are known: pixels measured but withheld from the reconstruction, and
-// the median over them of |reconstructed - measured| / measured. No held-out pixels: the error is not known
-// (NaN).
+// How well pixels that were not measured are known: pixels measured but withheld from the reconstruction. No
+// held-out pixels: the errors are not known (NaN).
 struct Reconstruction {
   std::size_t held_out = 0;
-  double error = 0;
+  double error = 0;  // root mean square of (reconstructed - measured), over the mean of what was measured
+  double median_error = 0;  // median of |reconstructed - measured| / measured
+  double total_error = 0;   // of the sum over all pixels: 95% half width, as a share of the sum
 };
 
 // isolate: does a thread alone compute what it computes in the program's draw? Of the pixels tried, how many
@@ -57,23 +69,77 @@ struct SameOutput {
 struct LineCost {
   int line = 0;
   std::uint64_t hits = 0;       // executions of statements that begin on the line, over all profiled threads
-  std::optional<double> share;  // of the whole cost; only `count` can tell it
+  std::optional<double> share;  // of the whole cost: by `count` exactly, else by the fit of costs to counts
+  // Lines of the same number run equally often in every thread: the fit cannot tell them apart, and divides
+  // what it finds for all by how many operations stand on each.
+  std::size_t together = 0;
+};
+
+struct BranchCost {
+  int line = 0, column = 0;
+  std::string kind;  // "if", "for", "while", "do"
+  std::uint64_t evaluated = 0, taken = 0;
+  double active_share = 0;  // activeShare of the evaluations, in groups of Profile::grain
+  double taken_share = 0;   // activeShare of what is behind the condition
+};
+
+struct FunctionCalls {
+  std::string name;
+  int line = 0;
+  std::uint64_t calls = 0;
+};
+
+struct SamplerFetches {
+  std::string sampler;   // as written at the lookup
+  std::string function;  // "texture", ...
+  int line = 0;
+  std::uint64_t fetches = 0;
+};
+
+struct LoopCost {
+  session::LoopReport report;
+  double active_share = 0;  // iterations done over those that the slowest of each group makes all wait for
+  // The critical path: threads that are still in the loop when less than 1% of those that entered are.
+  std::uint32_t critical_from = 0;            // iteration
+  std::vector<std::pair<int, int>> critical;  // their pixels, those that stay longest first; 16 at most
+  std::uint64_t critical_threads = 0;
+};
+
+// Costs of lines from costs of pixels.
+struct LineFit {
+  double r2 = 0;           // of the pixels' variance, explained by the counts
+  double start_share = 0;  // cost that every thread has, whatever it does, as a share of all
+  std::size_t rows = 0;    // pixels, or groups of pixels, in the fit
 };
 
 struct Profile {
   Method method = Method::count;
   std::string unit;  // of a pixel's cost: "statements", "ticks", "ns"
   CostMap map;
+  std::vector<double> uncertainty;        // per pixel: 95% half width, same unit; 0 where exact or not known
   std::size_t covered = 0;                // pixels on which a thread of the draw is visible (in the region)
   std::size_t measured = 0;               // of these
   int passes = 1;                         // measurements per measured pixel
   double seconds = 0;                     // the whole profile took
   double total = 0, median = 0, p95 = 0;  // over all covered pixels
-  double spread = 0;  // median over pixels of the relative spread of its repeats (relativeSpread)
+  // How much the result would differ, had it been measured again: the median over pixels of the difference
+  // between what the even and what the odd repeats alone give, relative; scaled to all repeats.
+  double spread = 0;
+  // What a step of known work costs in the same unit: makes runs on a faster and a slower day comparable. 0:
+  // none.
+  double yardstick = 0;
+  Grain grain;               // pixels that share a cost: a SIMD group (clock), a quad (isolate)
+  std::string timer;         // isolate: "CPU time" or "wall clock"
+  bool interrupted = false;  // by ProfileOptions::stop
   std::optional<Reconstruction> reconstruction;  // where not all covered pixels were measured
   std::optional<SameOutput> same_output;         // isolate only
   std::vector<LineCost> lines;                   // lines that ran or could have run, in order
-  session::Check check;                          // of all instrumented replays of the draw
+  std::optional<LineFit> fit;                    // where `share` comes from one
+  std::vector<BranchCost> branches;
+  std::vector<FunctionCalls> functions;
+  std::vector<SamplerFetches> samplers;
+  std::vector<LoopCost> loops;
+  session::Check check;            // of all instrumented replays of the draw
   std::vector<std::string> notes;  // what a reader must know to read the numbers right, a sentence each
 };
 

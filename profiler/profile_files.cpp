@@ -2,9 +2,12 @@
 
 #include <cmath>
 
+#include "profiler/pictures/difference_map.h"
 #include "profiler/pictures/files.h"
 #include "profiler/pictures/heat_map.h"
+#include "profiler/pictures/height_field.h"
 #include "profiler/pictures/ticks.h"
+#include "profiler/report/report.h"
 
 namespace shadestep::profiler {
 namespace {
@@ -22,9 +25,43 @@ Json linesOf(const Profile& profile) {
   for (const LineCost& line : profile.lines) {
     Json entry{{"line", line.line}, {"hits", line.hits}};
     if (line.share) entry["share"] = number(*line.share);
+    entry["together"] = line.together;
     lines.push_back(std::move(entry));
   }
   return lines;
+}
+
+Json branchesOf(const Profile& profile) {
+  Json branches = Json::array();
+  for (const BranchCost& branch : profile.branches)
+    branches.push_back({{"line", branch.line},
+                        {"column", branch.column},
+                        {"kind", branch.kind},
+                        {"evaluated", branch.evaluated},
+                        {"taken", branch.taken},
+                        {"active_share", number(branch.active_share)},
+                        {"taken_share", number(branch.taken_share)}});
+  return branches;
+}
+
+Json loopsOf(const Profile& profile) {
+  Json loops = Json::array();
+  for (const LoopCost& loop : profile.loops) {
+    const session::LoopReport& report = loop.report;
+    Json critical = Json::array();
+    for (const auto& [x, y] : loop.critical) critical.push_back({x, y});
+    loops.push_back(
+        {{"line", report.line},
+         {"threads", report.threads},
+         {"active", report.active},
+         {"left", report.left},
+         {"max", report.max},
+         {"mean", number(report.mean)},
+         {"active_share", number(loop.active_share)},
+         {"critical",
+          {{"from", loop.critical_from}, {"threads", loop.critical_threads}, {"pixels", critical}}}});
+  }
+  return loops;
 }
 
 Json checkOf(const session::Check& check) {
@@ -50,31 +87,95 @@ HeatMapText textFor(const Profile& profile, const std::string& what) {
   if (profile.reconstruction)
     measured += ", " + readable(static_cast<double>(profile.measured), 12) + " of them measured (" +
                 percent(static_cast<double>(profile.measured) / static_cast<double>(profile.covered)) +
-                "); the rest reconstructed, median error " + percent(profile.reconstruction->error) + " on " +
-                std::to_string(profile.reconstruction->held_out) + " held-out pixels";
+                "); the rest reconstructed, error " + percent(profile.reconstruction->error) +
+                " (root mean square) on " + std::to_string(profile.reconstruction->held_out) +
+                " held-out pixels";
   if (profile.passes > 1)
-    measured +=
-        "; " + std::to_string(profile.passes) + " measurements each, spread " + percent(profile.spread);
+    measured += "; " + std::to_string(profile.passes) + " measurements each, reproducible to " +
+                percent(profile.spread);
   text.notes.push_back(measured + ".");
   text.notes.insert(text.notes.end(), profile.notes.begin(), profile.notes.end());
   return text;
 }
 
+double rounded(double value) {
+  return static_cast<double>(static_cast<float>(value));
+}
+
 void writeHeatExr(const Profile& profile, const std::string& path) {
   std::vector<double> cost;
   std::vector<double> measured;
+  std::vector<double> uncertainty(profile.map.cost.size());
   for (std::size_t i = 0; i < profile.map.cost.size(); ++i) {
-    cost.push_back(static_cast<double>(static_cast<float>(profile.map.cost[i])));
+    cost.push_back(rounded(profile.map.cost[i]));
     measured.push_back(profile.map.state[i] == PixelState::measured        ? 1
                        : profile.map.state[i] == PixelState::reconstructed ? 0.5
                                                                            : 0);
+    if (i < profile.uncertainty.size()) uncertainty[i] = rounded(profile.uncertainty[i]);
   }
-  writeExr(path, profile.map.width, profile.map.height, {{"Y", cost}, {"measured", measured}});
+  writeExr(path, profile.map.width, profile.map.height,
+           {{"Y", cost}, {"measured", measured}, {"uncertainty", uncertainty}});
+}
+
+Json comparisonOf(const Comparison& comparison) {
+  Json lines = Json::array();
+  for (const Comparison::Line& line : comparison.lines)
+    lines.push_back({{"line", line.line},
+                     {"line_before", line.line_before},
+                     {"hits_before", line.hits_before},
+                     {"hits", line.hits},
+                     {"cost_before", number(line.cost_before)},
+                     {"cost", number(line.cost)}});
+  Json loops = Json::array();
+  for (const Comparison::Loop& loop : comparison.loops)
+    loops.push_back({{"line", loop.line},
+                     {"iterations_before", loop.iterations_before},
+                     {"iterations", loop.iterations}});
+  return {
+      {"file", comparison.file},
+      {"scale", number(comparison.scale)},
+      {"before", number(comparison.before)},
+      {"now", number(comparison.now)},
+      {"change", number(comparison.change)},
+      {"noise", number(comparison.noise)},
+      {"verdict", verdictName(comparison.verdict)},
+      {"pixels",
+       {{"compared", comparison.compared}, {"cheaper", comparison.cheaper}, {"dearer", comparison.dearer}}},
+      {"lines", std::move(lines)},
+      {"loops", std::move(loops)}};
+}
+
+HeatMapText differenceText(const Profile& profile, const Comparison& comparison, const std::string& what) {
+  HeatMapText text;
+  text.title = std::string("Difference of cost per pixel: ") + methodName(profile.method);
+  text.subtitle = what;
+  text.unit = profile.unit;
+  text.notes.push_back("Against " + comparison.file + ": " + percent(comparison.change) + " in all, noise " +
+                       percent(comparison.noise) + ": " + verdictName(comparison.verdict) + ". Of " +
+                       readable(static_cast<double>(comparison.compared), 12) + " pixels, " +
+                       readable(static_cast<double>(comparison.cheaper), 12) + " are cheaper (blue) and " +
+                       readable(static_cast<double>(comparison.dearer), 12) +
+                       " dearer (red) beyond the noise.");
+  return text;
+}
+
+std::vector<ReportLayer> layersOf(const Profile& profile, const Comparison* comparison) {
+  std::vector<ReportLayer> layers;
+  for (const LoopCost& loop : profile.loops) {
+    ReportLayer layer{
+        "iterations of the loop at line " + std::to_string(loop.report.line), "iterations", false, {}, {}};
+    layer.values.assign(loop.report.iterations.begin(), loop.report.iterations.end());
+    layers.push_back(std::move(layer));
+  }
+  if (comparison != nullptr)
+    layers.push_back({"difference from the earlier run", profile.unit, true, comparison->difference, {}});
+  return layers;
 }
 
 }  // namespace
 
-Json toJson(const Profile& profile, const ProfileFiles& files) {
+Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& subject,
+            const Comparison* comparison) {
   Json document;
   document["method"] = methodName(profile.method);
   document["unit"] = profile.unit;
@@ -91,22 +192,67 @@ Json toJson(const Profile& profile, const ProfileFiles& files) {
   document["reconstruction"] = nullptr;
   if (profile.reconstruction)
     document["reconstruction"] = {{"held_out", profile.reconstruction->held_out},
-                                  {"error", number(profile.reconstruction->error)}};
+                                  {"error", number(profile.reconstruction->error)},
+                                  {"median_error", number(profile.reconstruction->median_error)},
+                                  {"total_error", number(profile.reconstruction->total_error)}};
   if (profile.same_output)
     document["same_output"] = {{"tried", profile.same_output->tried}, {"same", profile.same_output->same}};
+  document["yardstick"] = number(profile.yardstick);
+  document["grain"] = {profile.grain.width, profile.grain.height};
+  document["timer"] = profile.timer.empty() ? Json(nullptr) : Json(profile.timer);
+  document["interrupted"] = profile.interrupted;
   document["lines"] = linesOf(profile);
+  document["fit"] = nullptr;
+  if (profile.fit)
+    document["fit"] = {{"r2", number(profile.fit->r2)},
+                       {"start_share", number(profile.fit->start_share)},
+                       {"rows", profile.fit->rows}};
+  document["branches"] = branchesOf(profile);
+  document["functions"] = Json::array();
+  for (const FunctionCalls& function : profile.functions)
+    document["functions"].push_back(
+        {{"name", function.name}, {"line", function.line}, {"calls", function.calls}});
+  document["fetches"] = Json::array();
+  for (const SamplerFetches& sampler : profile.samplers)
+    document["fetches"].push_back({{"sampler", sampler.sampler},
+                                   {"function", sampler.function},
+                                   {"line", sampler.line},
+                                   {"fetches", sampler.fetches}});
+  document["loops"] = loopsOf(profile);
   document["check"] = checkOf(profile.check);
   document["notes"] = profile.notes;
-  document["files"] = {
-      {"heat.png", files.heat_png}, {"heat.exr", files.heat_exr}, {"profile.json", files.profile_json}};
+  if (comparison != nullptr) document["comparison"] = comparisonOf(*comparison);
+  document["source"] = subject.source;
+  document["files"] = {{"heat.png", files.heat_png},
+                       {"heat.exr", files.heat_exr},
+                       {"height.png", files.height_png},
+                       {"profile.json", files.profile_json},
+                       {"report.html", files.report_html}};
+  if (comparison != nullptr) {
+    document["files"]["difference.png"] = files.difference_png;
+    document["files"]["difference.exr"] = files.difference_exr;
+  }
   return document;
 }
 
-void writeProfile(const Profile& profile, const ProfileFiles& files, const std::string& what) {
-  writeFile(files.heat_png, drawHeatMap(profile.map, textFor(profile, what)));
+void writeProfile(const Profile& profile, const ProfileFiles& files, const Subject& subject,
+                  const Comparison* comparison) {
+  const HeatMapText text = textFor(profile, subject.what);
+  writeFile(files.heat_png, drawHeatMap(profile.map, text));
   writeHeatExr(profile, files.heat_exr);
-  writeFile(files.profile_json,
-            toJson(profile, files).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(files.height_png, drawHeightField(profile.map, text));
+  if (comparison != nullptr) {
+    writeFile(files.difference_png,
+              drawDifferenceMap(profile.map, comparison->difference, comparison->significant,
+                                differenceText(profile, *comparison, subject.what)));
+    std::vector<double> difference;
+    for (const double d : comparison->difference) difference.push_back(rounded(d));
+    writeExr(files.difference_exr, profile.map.width, profile.map.height, {{"Y", difference}});
+  }
+  const Json document = toJson(profile, files, subject, comparison);
+  writeFile(files.profile_json, document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(files.report_html,
+            makeReport(profile, document, subject.source, subject.what, layersOf(profile, comparison)));
 }
 
 }  // namespace shadestep::profiler

@@ -4,21 +4,33 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "profiler/comparison.h"
 #include "profiler/profile.h"
 
 namespace shadestep::profiler {
 
 struct ProfileFiles {
-  std::string heat_png;  // the picture
-  std::string heat_exr;  // channel Y: cost, as floats; "measured": 1 measured, 0.5 reconstructed, 0 no thread
+  std::string heat_png;      // the picture
+  std::string heat_exr;      // channels: Y, cost; measured: 1 measured, 0.5 reconstructed, 0 no thread;
+                             // uncertainty: 95% half width
+  std::string height_png;    // the same as a landscape
   std::string profile_json;  // the document below
+  std::string report_html;   // all of it to look at in a browser, offline
+  std::string difference_png, difference_exr;  // with a comparison; channel Y: now - before
+};
+
+// What the files are about.
+struct Subject {
+  std::string what;                 // "raycaster, frame 0, draw 0"
+  std::vector<std::string> source;  // the shader's lines
 };
 
 // The document of docs/cli.md for the command `profile`. Numbers are exact; NaN is the string "NaN".
-nlohmann::ordered_json toJson(const Profile&, const ProfileFiles&);
+nlohmann::ordered_json toJson(const Profile&, const ProfileFiles&, const Subject&,
+                              const Comparison* comparison = nullptr);
 
-// Writes the three files. `what` names the subject on the picture: "raycaster, frame 0, draw 0".
-// Throws std::runtime_error with the file that could not be written.
-void writeProfile(const Profile&, const ProfileFiles&, const std::string& what);
+// Writes the files. Throws std::runtime_error with the file that could not be written.
+void writeProfile(const Profile&, const ProfileFiles&, const Subject&,
+                  const Comparison* comparison = nullptr);
 
 }  // namespace shadestep::profiler

@@ -17,18 +17,12 @@ const T& orThrow(const instrumenter::Result<T>& result) {
   return std::get<T>(result);
 }
 
-// A map of the target's size with `measured` wherever a visible thread of the draw is in the region.
+// A map of the target's size with `measured` wherever a visible thread of the draw is in the region. Throws
+// nothing_matches if that is nowhere.
 CostMap coveredPixels(const session::Captured&, const ProfileOptions&);
-
-// The sum over `map`'s measured pixels of how often each statement ran, by source line. Draws as often as the
-// draw buffers demand; the checks of the replays are merged into `check`.
-std::vector<LineCost> countLines(session::Session&, const CostMap& map, session::Check& check);
 
 // covered, measured, total, median and p95 from the map.
 void summarize(Profile&);
-
-// Executions per source line become shares of their sum.
-void shareByHits(std::vector<LineCost>&);
 
 class Stopwatch {
  public:

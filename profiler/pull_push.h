@@ -1,5 +1,6 @@
-// Filling the gaps between scattered samples: pull-push over an image pyramid (Gortler et al. 1996; Strengert
-// 2010, chapter 4 on pyramid filters).
+// Filling the gaps between scattered samples over an image pyramid (Strengert 2010, chapter 4): pull analyses
+// with a 2 x 2 box over values premultiplied with their support, push synthesizes with the weights 9, 3, 3, 1
+// over 16 of biquadratic B-splines (Doo-Sabin), where support is missing.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "instrumenter/measures.h"
+
 namespace shadestep::session {
 namespace {
 
@@ -62,7 +64,8 @@ Captured captureLoops(Session& session, const std::vector<StatementId>& loops, s
   }
 }
 
-LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captured, std::size_t number) {
+LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captured, std::size_t number,
+                    const std::vector<std::uint8_t>& marks) {
   const auto pixels = captured.threads.data.size() / static_cast<std::size_t>(captured.layout.words);
   LoopReport loop;
   loop.statement = id;
@@ -70,12 +73,13 @@ LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captur
   loop.line = statement.place.line;
   loop.function = shader.functions[static_cast<std::size_t>(statement.function)].name;
   loop.iterations.assign(pixels, 0);
+  loop.longest.assign(pixels, 0);
   std::vector<std::uint32_t> longest;
   std::uint64_t sum = 0;
   for (std::size_t p = 0; p < pixels; ++p) {
     const std::uint32_t* words =
         captured.threads.data.data() + p * static_cast<std::size_t>(captured.layout.words);
-    if (instrumenter::decodeMark(captured.layout, words) == 0) continue;
+    if (marks[p] == 0) continue;
     const auto field = [&](std::size_t which) {
       return instrumenter::decode(captured.layout, captured.layout.fields[number * kFields + which], words)
           .words.at(0);
@@ -87,7 +91,8 @@ LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captur
     loop.iterations[p] = field(1);
     loop.max = std::max(loop.max, loop.iterations[p]);
     sum += loop.iterations[p];
-    longest.push_back(field(2));
+    loop.longest[p] = field(2);
+    longest.push_back(loop.longest[p]);
     loop.cut += field(3) > 0 ? 1 : 0;
   }
   if (loop.threads > 0) loop.mean = static_cast<double>(sum) / static_cast<double>(loop.threads);
@@ -97,7 +102,7 @@ LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captur
 
 }  // namespace
 
-LoopsReport profileLoops(Session& session, int line) {
+LoopsReport profileLoops(Session& session, int line, const std::vector<std::uint8_t>& only) {
   const Shader& shader = session.shader(Stage::fragment);
   const std::vector<StatementId> loops = selectLoops(shader, line);
   LoopsReport report;
@@ -107,16 +112,18 @@ LoopsReport profileLoops(Session& session, int line) {
       report.width = captured.threads.width;
       report.height = captured.threads.height;
       const auto stride = static_cast<std::size_t>(captured.layout.words);
-      for (std::size_t at = 0; at < captured.threads.data.size(); at += stride)
-        report.marks.push_back(static_cast<std::uint8_t>(
-            instrumenter::decodeMark(captured.layout, captured.threads.data.data() + at)));
+      for (std::size_t at = 0; at < captured.threads.data.size(); at += stride) {
+        const auto mark = instrumenter::decodeMark(captured.layout, captured.threads.data.data() + at);
+        const bool wanted = only.empty() || only.at(report.marks.size()) != 0;
+        report.marks.push_back(wanted ? static_cast<std::uint8_t>(mark) : 0);
+      }
       report.check = captured.execution.check;
     } else {
       report.check.merge(captured.execution.check);
     }
     const std::size_t taken = captured.layout.fields.size() / kFields;
     for (std::size_t l = 0; l < taken; ++l)
-      report.loops.push_back(reportOf(shader, loops[report.loops.size()], captured, l));
+      report.loops.push_back(reportOf(shader, loops[report.loops.size()], captured, l, report.marks));
   }
   return report;
 }

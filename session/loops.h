@@ -23,6 +23,7 @@ struct LoopReport {
   // iterations of all loops of a thread together). Their counts are the driver's, not the shader's.
   std::uint64_t cut = 0;
   std::vector<std::uint32_t> iterations;  // per pixel, rows bottom up, all entries together
+  std::vector<std::uint32_t> longest;     // per pixel: of its longest entry
 };
 
 struct LoopsReport {
@@ -33,8 +34,8 @@ struct LoopsReport {
   Check check;
 };
 
-// All loops of the fragment shader, or the one at `line` if line > 0. Throws nothing_matches if there is
-// none.
-LoopsReport profileLoops(Session&, int line = 0);
+// All loops of the fragment shader, or the one at `line` if line > 0; of the pixels with only[pixel] != 0, if
+// it is not empty. Throws nothing_matches if there is no loop.
+LoopsReport profileLoops(Session&, int line = 0, const std::vector<std::uint8_t>& only = {});
 
 }  // namespace shadestep::session

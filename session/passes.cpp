@@ -230,12 +230,21 @@ Prepared Session::prepareCovering(const std::string& fragment_text, const std::s
 Execution Session::execute(const Prepared& prepared, const ExecuteOptions& options) {
   wire::ExecuteT execute;
   execute.handle = prepared.handle();
-  for (const Uniform& uniform : options.uniforms) {
-    auto value = std::make_unique<wire::UniformValueT>();
-    value->name = uniform.name;
-    value->gl_type = uniform.gl_type;
-    value->words = uniform.words;
-    execute.uniforms.push_back(std::move(value));
+  const auto packed = [](const std::vector<Uniform>& uniforms) {
+    std::vector<std::unique_ptr<wire::UniformValueT>> values;
+    for (const Uniform& uniform : uniforms) {
+      auto value = std::make_unique<wire::UniformValueT>();
+      value->name = uniform.name;
+      value->gl_type = uniform.gl_type;
+      value->words = uniform.words;
+      values.push_back(std::move(value));
+    }
+    return values;
+  };
+  execute.uniforms = packed(options.uniforms);
+  for (const std::vector<Uniform>& set : options.sets) {
+    execute.sets.push_back(std::make_unique<wire::UniformSetT>());
+    execute.sets.back()->uniforms = packed(set);
   }
   execute.storage = options.storage;
   // Without a buffer it would write to whatever the program has bound there; one of zeros has room for
@@ -277,6 +286,7 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   }
   result.storage = copyOf(wordsOf(bulk, reply.storage.get()));
   for (const std::uint64_t ns : reply.times_ns) result.times.emplace_back(ns);
+  for (const std::uint64_t ns : reply.cpu_ns) result.cpu_times.emplace_back(ns);
   result.check.compared_at_all = options.compare && reply.compare_reason.empty();
   result.check.compared = reply.compared;
   result.check.differing = reply.differing;

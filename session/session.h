@@ -128,6 +128,8 @@ struct ExecuteOptions {
   bool read_captures = true;
   int repeats = 1;
   int covering_size = 64;  // with a Covering program
+  // With a Covering program: every repeat draws once per set, with these uniforms beside `uniforms`.
+  std::vector<std::vector<Uniform>> sets;
 };
 
 // One colour buffer after the draw, in the type that it holds: float, int or uint.
@@ -144,7 +146,9 @@ struct Execution {
   std::shared_ptr<const wire::SharedMemory> memory;
   std::vector<ColorOutput> outputs;  // the program's own
   std::vector<std::uint32_t> storage;
-  std::vector<std::chrono::nanoseconds> times;  // one per repeat: draw + glFinish on the CPU's clock
+  // One per repeat (and set, the sets of a repeat in order), of draw + glFinish: on the CPU's clock, and as CPU
+  // time of all threads of the program.
+  std::vector<std::chrono::nanoseconds> times, cpu_times;
   Check check;
 };
 

@@ -1,8 +1,15 @@
 // shadestep profile: what each thread of a fragment shader costs.
 #include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <optional>
 
 #include "cli/common.h"
 #include "cli/progress.h"
@@ -12,21 +19,66 @@
 namespace shadestep::cli {
 namespace {
 
+// Set by the first interruption: measuring ends, and what was measured is written. The second ends the
+// program.
+std::atomic<bool> interrupted = false;
+
+void onInterrupt(int) {
+  if (interrupted.exchange(true)) std::_Exit(130);
+}
+
+// While it lives, SIGINT asks to stop instead of killing. The program under debug is started while the signal
+// is ignored, and inherits that: an interruption from the terminal reaches both, and must not end what is
+// measured.
+class InterruptGuard {
+ public:
+  InterruptGuard() : before_(std::signal(SIGINT, SIG_IGN)) {}
+  ~InterruptGuard() { std::signal(SIGINT, before_); }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+  void listen() { std::signal(SIGINT, onInterrupt); }
+
+ private:
+  void (*before_)(int);
+};
+
 struct Options {
   std::string method = "auto";
   std::string roi;
   std::string error;
   std::string compare;
-  double budget = 12;
+  std::optional<double> budget;
   int passes = 5;
   bool no_lines = false;
+  std::optional<double> share;
+  std::optional<int> fragments;
+  int repeats = 5;
 };
 
+// "5%" or "5": five in a hundred.
+double parsePercent(std::string text) {
+  const std::string given = text;
+  if (!text.empty() && text.back() == '%') text.pop_back();
+  double value = 0;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failed != std::errc() || end != text.data() + text.size() || !(value > 0) || value > 100)
+    throw session::Error(session::Outcome::usage,
+                         "--error takes a percentage above 0, such as 5%, not '" + given + "'");
+  return value / 100;
+}
+
 profiler::ProfileOptions profileOptions(const Options& options) {
+  constexpr double kUsualBudget = 12;
   profiler::ProfileOptions result;
-  result.budget = options.budget;
+  if (!options.error.empty()) result.error = parsePercent(options.error);
+  result.budget =
+      options.budget.value_or(result.error ? std::numeric_limits<double>::infinity() : kUsualBudget);
   result.passes = options.passes;
   result.lines = !options.no_lines;
+  result.share = options.share;
+  result.size = options.fragments;
+  result.repeats = options.repeats;
+  result.stop = [] { return interrupted.load(); };
   if (!options.roi.empty()) {
     const std::vector<int> roi = parseIntegers(options.roi, "--roi", 4, 4);
     if (roi[2] < 1 || roi[3] < 1) {
@@ -57,7 +109,9 @@ std::string subject(session::Session& session, const Common& common) {
 // The costliest lines, most first.
 void printLines(const profiler::Profile& profile, const frontend::Shader& shader) {
   std::vector<profiler::LineCost> lines = profile.lines;
-  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.hits > b.hits; });
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.share.value_or(0), a.hits) > std::pair(b.share.value_or(0), b.hits);
+  });
   if (lines.size() > 12) lines.resize(12);
   if (lines.empty()) return;
   std::printf("\n  line          hits   share  source\n");
@@ -69,8 +123,36 @@ void printLines(const profiler::Profile& profile, const frontend::Shader& shader
   }
 }
 
-void printText(const profiler::Profile& profile, const profiler::ProfileFiles& files,
-               const frontend::Shader& shader) {
+void printComparison(const profiler::Comparison& comparison, const frontend::Shader& shader) {
+  const auto percent = [](double share) { return profiler::readable(100 * share, 3) + " %"; };
+  std::printf("\nagainst %s: %s%s in all, noise %s: %s\n", comparison.file.c_str(),
+              comparison.change > 0 ? "+" : "", percent(comparison.change).c_str(),
+              percent(comparison.noise).c_str(), profiler::verdictName(comparison.verdict));
+  std::printf("of %s pixels in both, %s are cheaper and %s dearer beyond the noise\n",
+              withThousands(comparison.compared).c_str(), withThousands(comparison.cheaper).c_str(),
+              withThousands(comparison.dearer).c_str());
+  for (const profiler::Comparison::Loop& loop : comparison.loops)
+    std::printf("loop at line %d: %s iterations before, %s now\n", loop.line,
+                withThousands(loop.iterations_before).c_str(), withThousands(loop.iterations).c_str());
+  std::vector<profiler::Comparison::Line> lines = comparison.lines;
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.cost - a.cost_before) > std::abs(b.cost - b.cost_before);
+  });
+  if (lines.size() > 8) lines.resize(8);
+  if (lines.empty()) return;
+  std::printf("\n  line   hits before      hits now   change of cost  source\n");
+  for (const profiler::Comparison::Line& line : lines) {
+    const auto index = static_cast<std::size_t>(line.line) - 1;
+    const std::string change =
+        comparison.before > 0 ? percent((line.cost - line.cost_before) / comparison.before) : "";
+    std::printf(
+        "  %4d  %12s  %12s  %15s  %s\n", line.line != 0 ? line.line : line.line_before,
+        withThousands(line.hits_before).c_str(), withThousands(line.hits).c_str(), change.c_str(),
+        line.line != 0 && index < shader.lines.size() ? shader.lines[index].c_str() : "(no longer there)");
+  }
+}
+
+void printText(const profiler::Profile& profile, const frontend::Shader& shader) {
   const auto cost = [&](double value) {
     const profiler::ScaledUnit unit = profiler::scaledUnit(profile.unit, value);
     return profiler::readable(value * unit.factor) + " " + unit.name;
@@ -78,55 +160,82 @@ void printText(const profiler::Profile& profile, const profiler::ProfileFiles& f
   std::printf("%s: %s of %s covered pixels measured, %d time%s each, in %s s\n", methodName(profile.method),
               withThousands(profile.measured).c_str(), withThousands(profile.covered).c_str(), profile.passes,
               profile.passes == 1 ? "" : "s", profiler::readable(profile.seconds, 3).c_str());
-  std::printf("per pixel: median %s, 95 %% below %s; spread of repeats %s %%\n", cost(profile.median).c_str(),
+  std::printf("per pixel: median %s, 95 %% below %s; reproducible to %s %%\n", cost(profile.median).c_str(),
               cost(profile.p95).c_str(), profiler::readable(100 * profile.spread, 2).c_str());
   if (profile.reconstruction)
-    std::printf("the rest reconstructed: median error %s %% on %zu held-out pixels\n",
+    std::printf("the rest reconstructed: error %s %% (root mean square) on %zu held-out pixels\n",
                 profiler::readable(100 * profile.reconstruction->error, 2).c_str(),
                 profile.reconstruction->held_out);
   std::cout << describe(profile.check) << "\n";
   for (const std::string& note : profile.notes) std::cout << "note: " << note << "\n";
   std::fflush(stdout);
   printLines(profile, shader);
-  std::printf("\nwrote %s, %s, %s\n", files.heat_png.c_str(), files.heat_exr.c_str(),
-              files.profile_json.c_str());
+  if (profile.fit)
+    std::printf("\n  shares by a fit of costs to counts: R2 %s\n",
+                profiler::readable(profile.fit->r2, 3).c_str());
+}
+
+void printFiles(const profiler::ProfileFiles& files, bool compared) {
+  std::printf("\nwrote %s, %s, %s, %s, %s", files.report_html.c_str(), files.heat_png.c_str(),
+              files.heat_exr.c_str(), files.height_png.c_str(), files.profile_json.c_str());
+  if (compared) std::printf(", %s, %s", files.difference_png.c_str(), files.difference_exr.c_str());
+  std::printf("\n");
+}
+
+profiler::ProfileFiles filesIn(const Common& common) {
+  profiler::ProfileFiles files;
+  files.heat_png = common.inOut("heat.png");
+  files.heat_exr = common.inOut("heat.exr");
+  files.height_png = common.inOut("height.png");
+  files.profile_json = common.inOut("profile.json");
+  files.report_html = common.inOut("report.html");
+  files.difference_png = common.inOut("difference.png");
+  files.difference_exr = common.inOut("difference.exr");
+  return files;
 }
 
 int run(const Common& common, const Options& options) {
-  if (!options.compare.empty() || !options.error.empty()) {
-    throw session::Error(session::Outcome::usage,
-                         std::string(options.compare.empty() ? "--error" : "--compare") +
-                             " is not in this version; profile both programs and compare their heat.exr");
-  }
   profiler::ProfileOptions how = profileOptions(options);
-  const profiler::ProfileFiles files{common.inOut("heat.png"), common.inOut("heat.exr"),
-                                     common.inOut("profile.json")};
+  std::optional<profiler::Earlier> earlier;
+  if (!options.compare.empty()) earlier = profiler::readEarlier(options.compare);
+  const profiler::ProfileFiles files = filesIn(common);
+  InterruptGuard guard;
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   session.requireCapturable();
+  guard.listen();
 
   profiler::Profile profile;
   {
     ProgressBar bar("profiling", common.quiet);
     how.progress = [&bar](double share) { bar.update(share); };
-    profile = measure(session, options.method, how);
+    // Against an earlier run only its own method says anything.
+    profile = measure(session, earlier && options.method == "auto" ? earlier->method : options.method, how);
   }
-  profiler::writeProfile(profile, files, subject(session, common));
+  if (profile.interrupted) std::fprintf(stderr, "interrupted: this is what was measured until then\n");
+  const frontend::Shader& shader = session.shader(session::Stage::fragment);
+  const profiler::Subject what{subject(session, common), shader.lines};
+  std::optional<profiler::Comparison> comparison;
+  if (earlier) comparison = profiler::compare(*earlier, profile, shader.lines);
+  const profiler::Comparison* const compared = comparison ? &*comparison : nullptr;
+  profiler::writeProfile(profile, files, what, compared);
   if (common.json) {
-    print(profiler::toJson(profile, files));
+    print(profiler::toJson(profile, files, what, compared));
   } else {
-    printText(profile, files, session.shader(session::Stage::fragment));
+    printText(profile, shader);
+    if (comparison) printComparison(*comparison, shader);
+    printFiles(files, comparison.has_value());
   }
-  return profile.check.compared_at_all && !profile.check.identical()
-             ? static_cast<int>(session::Outcome::failed)
-             : 0;
+  const bool differs = profile.check.compared_at_all && !profile.check.identical();
+  const bool dearer = comparison && comparison->verdict == profiler::Verdict::dearer;
+  return differs || dearer ? static_cast<int>(session::Outcome::failed) : 0;
 }
 
 }  // namespace
 
 void addProfile(CLI::App& app, Common& common, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("profile", "what each thread costs; writes heat.png, heat.exr, profile.json");
+  CLI::App* command = app.add_subcommand(
+      "profile", "what each thread costs; writes report.html, heat.png, heat.exr, height.png, profile.json");
   auto options = std::make_shared<Options>();
   addCommonOptions(*command, common);
   addSelectionOptions(*command, common);
@@ -138,17 +247,43 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
       ->check(CLI::IsMember({"auto", "clock", "isolate", "count"}));
   command->add_option("--roi", options->roi, "only these pixels: lower left corner and size")
       ->type_name("X,Y,W,H");
-  command->add_option("--budget", options->budget, "isolate: seconds to measure; decides how many pixels")
+  command
+      ->add_option(
+          "--budget", options->budget,
+          "seconds to measure (12, or with --error until that is reached); isolate: decides how many pixels")
       ->type_name("S")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->check(CLI::PositiveNumber);
   command->add_option("--passes", options->passes, "clock: draws, of which the median counts")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--no-lines", options->no_lines, "do not count executions per line");
-  command->add_option("--error", options->error, "not in this version")->type_name("P%");
-  command->add_option("--compare", options->compare, "not in this version")->type_name("FILE");
+  command
+      ->add_option(
+          "--error", options->error,
+          "measure until the map is known this well (isolate: at held-out pixels; clock: between passes)")
+      ->type_name("P%");
+  command
+      ->add_option(
+          "--compare", options->compare,
+          "an earlier run's profile.json (its heat.exr beside it): what became cheaper and what dearer; "
+          "status 1 if this run is dearer beyond the noise")
+      ->type_name("FILE");
+  command
+      ->add_option("--share", options->share, "isolate: measure this share of the pixels, on a regular grid")
+      ->type_name("0..1")
+      ->check(CLI::Range(1e-6, 1.0));
+  command
+      ->add_option("--fragments", options->fragments,
+                   "isolate: fragments per side of a measured draw (chosen)")
+      ->type_name("N")
+      ->check(CLI::Range(2, 2048));
+  command
+      ->add_option("--repeats", options->repeats,
+                   "isolate: draws per measured pixel, of which the lower quartile counts")
+      ->type_name("N")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
   command->callback(
       [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });
 }

@@ -74,44 +74,88 @@ Type typeOf(Basic basic, int rows) {
   return type;
 }
 
-std::string unsupported(const Shader& shader, const Variable& input) {
-  const TokenRange declaration = globalDeclaration(shader, input);
-  for (TokenIndex i = declaration.first; i <= declaration.last; ++i)
-    if (at(shader, i).text == "{") return "'" + input.name + "' belongs to an input block";
-  if (input.type.basic == Basic::struct_) return "'" + input.name + "' is a structure";
-  return "";
-}
-
 bool isUserInput(const Variable& variable) {
   return variable.storage == Storage::in && variable.declared != frontend::kNone;
 }
 
-// flat in vec3 p, q;  ->  uniform vec3 p, q;
-void makeUniform(Draft& draft, const Variable& input) {
-  static const std::set<std::string> interpolation = {"flat",   "smooth",    "noperspective", "centroid",
-                                                      "sample", "invariant", "precise"};
+// Takes away what an ordinary variable cannot have; returns where the `in` stood.
+TokenIndex stripQualifiers(Draft& draft, TokenRange range) {
+  static const std::set<std::string> qualifiers = {"flat",   "smooth",    "noperspective", "centroid",
+                                                   "sample", "invariant", "precise"};
   const Shader& shader = draft.shader();
-  for (TokenIndex i = globalDeclaration(shader, input).first; i < input.declared; ++i) {
+  TokenIndex input = frontend::kNone;
+  for (TokenIndex i = range.first; i <= range.last; ++i) {
     const std::string& text = at(shader, i).text;
-    if (text == ",") return;  // the first name of the list has done it
-    if (isInputQualifier(text)) draft.edits.replace(i, "uniform");
-    if (interpolation.contains(text)) draft.edits.remove(i);
+    if (qualifiers.contains(text)) draft.edits.remove(i);
+    if (isInputQualifier(text)) {
+      draft.edits.remove(i);
+      input = i;
+    }
     if (text != "layout") continue;
     const TokenIndex close = matchingBracket(shader, i + 1);
     for (; i <= close; ++i) draft.edits.remove(i);
     --i;
   }
+  return input;
+}
+
+// The brace of the nameless block that a variable is a member of; kNone for all others.
+TokenIndex openingBrace(const Shader& shader, const Variable& member) {
+  int depth = 0;
+  for (TokenIndex i = member.declared - 1; i >= 0; --i) {
+    const std::string& text = at(shader, i).text;
+    if (text == "}") ++depth;
+    if (text == "{" && depth-- == 0) return i;
+  }
+  return frontend::kNone;
+}
+
+TokenRange blockDeclaration(const Shader& shader, TokenIndex open) {
+  TokenIndex first = open - 1;
+  const auto ends = [&shader](TokenIndex i) {
+    return at(shader, i).kind == frontend::TokenKind::directive || at(shader, i).text == ";" ||
+           at(shader, i).text == "}";
+  };
+  while (first > 0 && !ends(first - 1)) --first;
+  return {first, matchingBracket(shader, open) + 1};
+}
+
+// in Block { ... } block;  or  in Block { ... };  with the brace at `open`
+void openBlock(Draft& draft, TokenRange declaration, TokenIndex open) {
+  const Shader& shader = draft.shader();
+  const TokenIndex close = matchingBracket(shader, open);
+  const bool nameless = at(shader, close + 1).text == ";";
+  for (TokenIndex i = declaration.first; i < open - 1; ++i)
+    if (!nameless && isInputQualifier(at(shader, i).text))
+      draft.edits.replace(i, "struct");
+    else
+      draft.edits.remove(i);
+  stripQualifiers(draft, {open + 1, close - 1});
+  if (nameless)
+    for (const TokenIndex i : {open - 1, open, close, close + 1}) draft.edits.remove(i);
+}
+
+void makeVariable(Draft& draft, const Variable& input) {
+  const Shader& shader = draft.shader();
+  if (const TokenIndex open = openingBrace(shader, input); open != frontend::kNone)
+    return openBlock(draft, blockDeclaration(shader, open), open);
+  const TokenRange declaration = globalDeclaration(shader, input);
+  for (TokenIndex i = declaration.first; i <= declaration.last; ++i) {
+    if (at(shader, i).text == "struct") break;  // a structure that is declared in passing
+    if (at(shader, i).text == "{") return openBlock(draft, declaration, i);
+  }
+  TokenIndex end = declaration.first;  // of the qualifiers and the type: the first declared name
+  while (end < input.declared && at(shader, end).text != "," && at(shader, end).text != "struct") ++end;
+  stripQualifiers(draft, {declaration.first, end - 1});
 }
 
 }  // namespace
 
-Result<std::vector<IsolatedInput>> fragmentInputs(const Draft& draft) {
+Result<std::vector<FragmentInput>> fragmentInputs(const Draft& draft) {
   const Shader& shader = draft.shader();
-  std::vector<IsolatedInput> inputs;
+  std::vector<FragmentInput> inputs;
   for (const Variable& variable : shader.variables) {
     if (!isUserInput(variable) || !variable.read) continue;
-    const std::string reason = unsupported(shader, variable);
-    if (!reason.empty()) return Failure{"The inputs cannot be turned into uniforms yet: " + reason + "."};
     inputs.push_back({variable.name, variable.name, variable.type});
   }
 
@@ -119,14 +163,13 @@ Result<std::vector<IsolatedInput>> fragmentInputs(const Draft& draft) {
   for (TokenIndex i = 0; i < tokenCount(shader); ++i) {
     const std::string& text = at(shader, i).text;
     if (text.starts_with("interpolateAt"))
-      return Failure{"The inputs cannot be turned into uniforms: '" + text + "' needs a real input."};
+      return Failure{"The inputs cannot be replaced: '" + text + "' needs a real input."};
     if (text == "gl_ClipDistance" || text == "gl_CullDistance")
-      return Failure{"The inputs cannot be turned into uniforms yet: '" + text + "' is an array."};
+      return Failure{"The inputs cannot be replaced yet: '" + text + "' is an array."};
     if (text == kTexCoord && !isRedeclaration(shader, i)) {
       const std::string index = literalIndex(shader, i);
       if (index.empty())
-        return Failure{
-            "The inputs cannot be turned into uniforms yet: gl_TexCoord is used without a literal index."};
+        return Failure{"The inputs cannot be replaced yet: gl_TexCoord is used without a literal index."};
       if (seen.insert(text + index).second)
         inputs.push_back(
             {text + "[" + index + "]", draft.name("TexCoord" + index), typeOf(Basic::float_, 4)});
@@ -139,22 +182,22 @@ Result<std::vector<IsolatedInput>> fragmentInputs(const Draft& draft) {
   return inputs;
 }
 
-void replaceInputs(Draft& draft, const std::vector<IsolatedInput>& inputs) {
+void replaceInputs(Draft& draft, const std::vector<FragmentInput>& inputs) {
   const Shader& shader = draft.shader();
   for (const Variable& variable : shader.variables)
-    if (isUserInput(variable)) makeUniform(draft, variable);
-  for (const IsolatedInput& input : inputs) {
-    if (input.input == input.uniform) continue;
+    if (isUserInput(variable)) makeVariable(draft, variable);
+  for (const FragmentInput& input : inputs) {
+    if (input.input == input.variable) continue;
     const std::string precision = input.type.basic == Basic::bool_ ? "" : draft.highp();
-    draft.declare("uniform " + precision + frontend::glslName(input.type) + " " + input.uniform + ";");
+    draft.declare(precision + frontend::glslName(input.type) + " " + input.variable + ";");
   }
 
   for (TokenIndex i = 0; i < tokenCount(shader); ++i) {
     const Token& token = at(shader, i);
     const std::string watch =
         token.text == kTexCoord ? token.text + "[" + literalIndex(shader, i) + "]" : token.text;
-    const auto input = std::find_if(inputs.begin(), inputs.end(), [&watch](const IsolatedInput& candidate) {
-      return candidate.input == watch && candidate.input != candidate.uniform;
+    const auto input = std::find_if(inputs.begin(), inputs.end(), [&watch](const FragmentInput& candidate) {
+      return candidate.input == watch && candidate.input != candidate.variable;
     });
     if ((input != inputs.end() || token.text == kTexCoord) && isRedeclaration(shader, i)) {
       Variable variable;
@@ -164,7 +207,7 @@ void replaceInputs(Draft& draft, const std::vector<IsolatedInput>& inputs) {
         draft.edits.remove(dropped);
       i = declaration.last;
     } else if (input != inputs.end()) {
-      draft.edits.replace(i, input->uniform);
+      draft.edits.replace(i, input->variable);
       if (token.text == kTexCoord)
         for (TokenIndex index = i + 1; index <= i + 3; ++index) draft.edits.remove(index);
     }

@@ -1,11 +1,14 @@
-// Inputs of a fragment turned into uniforms, so that every fragment gets the same values (thesis 7.2.1).
+// Inputs of a fragment turned into variables that the new main sets (thesis 7.2.1): every fragment gets the
+// same values, or those of its place in a 2 x 2 quad.
 //
-//   flat in vec3 p, q;         ->    uniform vec3 p, q;                 (the names stay, so nothing else
-//   changes)
-//   ... gl_FragCoord.x ...     ->    ... sd_FragCoord.x ...             uniform vec4 sd_FragCoord;
-//   ... gl_TexCoord[1].st ...  ->    ... sd_TexCoord1.st ...            uniform vec4 sd_TexCoord1;
+//   flat in vec3 p, q;                 ->    vec3 p, q;                  (the names stay, so nothing else
+//   changes) in Block { flat vec2 a; } block;   ->    struct Block { vec2 a; } block; in Block { flat vec2 a;
+//   };         ->    vec2 a;
+//   ... gl_FragCoord.x ...             ->    ... sd_FragCoord.x ...      vec4 sd_FragCoord;
+//   ... gl_TexCoord[1].st ...          ->    ... sd_TexCoord1.st ...     vec4 sd_TexCoord1;
 //
-// A built-in that the shader declares again loses that declaration.
+// A built-in that the shader declares again loses that declaration. gl_SampleID, gl_SamplePosition and
+// gl_SampleMaskIn stay: on targets that can be captured at all they are the same for every fragment.
 #pragma once
 
 #include <variant>
@@ -15,11 +18,16 @@
 
 namespace shadestep::instrumenter {
 
-// The inputs that the shader uses, with the names that the uniforms get; or why they cannot be turned into
-// uniforms.
-Result<std::vector<IsolatedInput>> fragmentInputs(const Draft&);
+struct FragmentInput {
+  std::string input;     // the expression that it is captured by
+  std::string variable;  // what the isolated shader calls it
+  frontend::Type type;
+};
 
-// Carries it out, for inputs found by fragmentInputs.
-void replaceInputs(Draft&, const std::vector<IsolatedInput>&);
+// The inputs that the shader uses; or why they cannot be replaced.
+Result<std::vector<FragmentInput>> fragmentInputs(const Draft&);
+
+// Makes variables of inputs found by fragmentInputs. Their values are for the caller to set.
+void replaceInputs(Draft&, const std::vector<FragmentInput>&);
 
 }  // namespace shadestep::instrumenter

@@ -38,20 +38,23 @@ Reply replied(OrRefusal<Body>&& result) {
   return success(std::get<Body>(std::move(result)));
 }
 
-std::uint64_t now() {
+std::uint64_t now(clockid_t clock) {
   timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
+  clock_gettime(clock, &time);
   return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
 }
 
-// The time of one draw on the CPU's clock: nothing is in flight before it, all is done after it.
+// Draws and notes how long that took, on the wall and in CPU time of the whole program: nothing is in flight
+// before it, all is done after it.
 template <class Draw>
-std::uint64_t timed(Draw draw) {
+void timed(wire::ExecutedT& executed, Draw draw) {
   gl().Finish();
-  const std::uint64_t start = now();
+  const std::uint64_t wall = now(CLOCK_MONOTONIC);
+  const std::uint64_t cpu = now(CLOCK_PROCESS_CPUTIME_ID);
   draw();
   gl().Finish();
-  return now() - start;
+  executed.cpu_ns.push_back(now(CLOCK_PROCESS_CPUTIME_ID) - cpu);
+  executed.times_ns.push_back(now(CLOCK_MONOTONIC) - wall);
 }
 
 // Hands out ranges of the memory that travels beside Executed; aligned for any word.
@@ -256,7 +259,7 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const g
           !refusal.text.empty()) {
         return refusal;
       }
-      executed.times_ns.push_back(timed([&] { call_.replay(call_.arguments); }));
+      timed(executed, [&] { call_.replay(call_.arguments); });
     }
     if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
   }
@@ -372,9 +375,14 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
     }
     if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
     if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
-    for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
+    const std::size_t sets = std::max<std::size_t>(request.sets.size(), 1);
+    for (std::size_t i = 0; i < std::max(request.repeats, 1U) * sets; ++i) {
+      if (!request.sets.empty()) {
+        const std::string problem = replay::setUniforms(copy.program, request.sets[i % sets]->uniforms);
+        if (!problem.empty()) return guard::unsupported(problem);
+      }
       memory_->restore();
-      executed.times_ns.push_back(timed([&] { covering_.draw(); }));
+      timed(executed, [&] { covering_.draw(); });
     }
     if (guard::clearErrors()) return guard::internal("the driver answers the covering draw with an error");
   }

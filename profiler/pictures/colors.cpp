@@ -78,6 +78,12 @@ Color sequentialColor(double t) {
   return fromOklch(lightness, chroma, hue);
 }
 
+Color differenceColor(double t) {
+  t = std::isnan(t) ? 0.5 : std::clamp(t, 0.0, 1.0);
+  const double away = 2 * std::abs(t - 0.5);
+  return fromOklch(0.97 - 0.52 * away, 0.17 * std::pow(away, 0.8), t < 0.5 ? 255 : 25);
+}
+
 Color categoricalColor(int index) {
   // Hues far apart first; lightness varies too, so that neighbours differ without colour vision.
   static constexpr std::array<std::array<double, 3>, 8> lch{{{0.56, 0.16, 255},

@@ -22,6 +22,10 @@ double oklabLightness(const Color&);
 // clamped.
 Color sequentialColor(double t);
 
+// The colour map of differences: blue below 0.5, near white at 0.5, red above; lightness falls alike to both
+// sides.
+Color differenceColor(double t);
+
 // Eight distinct colours for lines and marks of equal weight; `index` wraps around.
 Color categoricalColor(int index);
 

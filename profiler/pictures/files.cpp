@@ -4,6 +4,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -149,6 +150,42 @@ void writeExr(const std::string& path, int width, int height, const std::vector<
     file.writePixels(height);
   }  // its destructor writes the table of lines
   writeFile(path, stream.bytes());
+}
+
+ExrImage readExr(const std::string& path) {
+  try {
+    Imf::InputFile file(path.c_str());
+    const Imath::Box2i window = file.header().dataWindow();
+    ExrImage image;
+    image.width = window.max.x - window.min.x + 1;
+    image.height = window.max.y - window.min.y + 1;
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    std::map<std::string, std::vector<float>> planes;
+    Imf::FrameBuffer frame;
+    const Imf::ChannelList& channels = file.header().channels();
+    for (Imf::ChannelList::ConstIterator channel = channels.begin(); channel != channels.end(); ++channel) {
+      std::vector<float>& plane = planes[channel.name()];
+      plane.resize(pixels);
+      const auto stride = static_cast<std::ptrdiff_t>(sizeof(float));
+      char* const origin = reinterpret_cast<char*>(plane.data()) -
+                           (window.min.x + static_cast<std::ptrdiff_t>(window.min.y) * image.width) * stride;
+      frame.insert(channel.name(), Imf::Slice(Imf::FLOAT, origin, sizeof(float),
+                                              sizeof(float) * static_cast<std::size_t>(image.width)));
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    for (const auto& [name, plane] : planes) {
+      std::vector<double>& values = image.channels[name];
+      values.reserve(pixels);
+      for (int row = image.height - 1; row >= 0; --row) {
+        const auto first = plane.begin() + static_cast<std::ptrdiff_t>(row) * image.width;
+        values.insert(values.end(), first, first + image.width);
+      }
+    }
+    return image;
+  } catch (const std::exception& error) {
+    throw std::runtime_error("cannot read " + path + " as OpenEXR: " + error.what());
+  }
 }
 
 std::string exactText(float value) {

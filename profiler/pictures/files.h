@@ -2,6 +2,7 @@
 // renamed.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,13 @@ struct ExrChannel {
 // infinities included), else UINT where every value is a 32-bit unsigned integer. Throws std::runtime_error
 // for values that fit neither, rather than rounding them, and when the file cannot be written.
 void writeExr(const std::string& path, int width, int height, const std::vector<ExrChannel>&);
+
+// A whole EXR image of FLOAT, HALF or UINT channels. Throws std::runtime_error with a sentence.
+struct ExrImage {
+  int width = 0, height = 0;
+  std::map<std::string, std::vector<double>> channels;  // rows from the bottom up
+};
+ExrImage readExr(const std::string& path);
 
 // The shortest decimal text that reads back as the same bits; "nan", "inf", "-inf".
 std::string exactText(float);

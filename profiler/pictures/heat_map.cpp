@@ -18,22 +18,6 @@ constexpr double kNoteHeight = 16;
 constexpr int kBins = 70;
 constexpr Color kDistribution{0.82, 0.835, 0.86};
 
-// The colours span the costs that occur. One pixel in a thousand may lie above: a single interrupted
-// measurement must not take all contrast from the rest.
-ColorRange chooseRange(const std::vector<double>& costs) {
-  if (costs.empty()) return {0, 1, false};
-  const auto [low, high] = std::minmax_element(costs.begin(), costs.end());
-  ColorRange range{*low, *high, false};
-  const double most = quantile(costs, 0.999);
-  if (*high > 1.25 * most && most > *low) {
-    range.high = most;
-    range.values_above = true;
-  }
-  if (range.low > 0 && range.low < 0.4 * range.high) range.low = 0;
-  if (range.high <= range.low) range = {0, range.high > 0 ? 2 * range.high : 1, false};
-  return range;
-}
-
 Pixels colored(const CostMap& map, const ColorRange& range) {
   Pixels pixels{map.width, map.height, {}};
   pixels.colors.reserve(map.cost.size());
@@ -80,6 +64,20 @@ void drawDistribution(Canvas& canvas, const Rect& r, const ColorRange& range,
 
 }  // namespace
 
+ColorRange costRange(const std::vector<double>& costs) {
+  if (costs.empty()) return {0, 1, false};
+  const auto [low, high] = std::minmax_element(costs.begin(), costs.end());
+  ColorRange range{*low, *high, false};
+  const double most = quantile(costs, 0.999);
+  if (*high > 1.25 * most && most > *low) {
+    range.high = most;
+    range.values_above = true;
+  }
+  if (range.low > 0 && range.low < 0.4 * range.high) range.low = 0;
+  if (range.high <= range.low) range = {0, range.high > 0 ? 2 * range.high : 1, false};
+  return range;
+}
+
 std::string drawHeatMap(const CostMap& map, const HeatMapText& text) {
   const PanelSize size = panelSize(map.width, map.height, kRoom);
   const double panel_height = std::max(size.height, 260.0);
@@ -96,7 +94,7 @@ std::string drawHeatMap(const CostMap& map, const HeatMapText& text) {
   canvas.text(24, 54, text.subtitle, {12, false, kFaintInk, Align::left});
 
   const std::vector<double> costs = map.costs();
-  const ColorRange range = chooseRange(costs);
+  const ColorRange range = costRange(costs);
   const Rect panel{kLeft, kTop, size.width, size.height};
   drawPixelPanel(canvas, panel, colored(map, range));
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "profiler/cost_map.h"
+#include "profiler/pictures/pixel_panel.h"
 
 namespace shadestep::profiler {
 
@@ -14,6 +15,10 @@ struct HeatMapText {
   std::string unit;                // "ns", "ticks", "statements"
   std::vector<std::string> notes;  // lines below the picture
 };
+
+// What the colours span: the costs that occur. One pixel in a thousand may lie above: a single interrupted
+// measurement must not take all contrast from the rest.
+ColorRange costRange(const std::vector<double>& costs);
 
 // The picture as a PNG file's bytes.
 std::string drawHeatMap(const CostMap&, const HeatMapText&);

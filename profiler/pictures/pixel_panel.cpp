@@ -31,14 +31,14 @@ void drawPixelPanel(Canvas& canvas, const Rect& r, const Pixels& pixels) {
   }
 }
 
-void drawColorBar(Canvas& canvas, const Rect& r, const ColorRange& range, const ScaledUnit& unit) {
+void drawColorBar(Canvas& canvas, const Rect& r, const ColorRange& range, const ScaledUnit& unit,
+                  Color (*colors)(double)) {
   Pixels ramp{1, static_cast<int>(r.height * Canvas::kScale), {}};
-  for (int i = 0; i < ramp.height; ++i) ramp.colors.push_back(sequentialColor(1 - (i + 0.5) / ramp.height));
+  for (int i = 0; i < ramp.height; ++i) ramp.colors.push_back(colors(1 - (i + 0.5) / ramp.height));
   canvas.pixels(r, ramp);
   canvas.outline(r, kFrame);
   if (range.values_above)  // an arrow's head: the scale goes on
-    canvas.polygon({{r.x - 1, r.y - 1}, {r.right() + 1, r.y - 1}, {r.x + r.width / 2, r.y - 11}},
-                   sequentialColor(1));
+    canvas.polygon({{r.x - 1, r.y - 1}, {r.right() + 1, r.y - 1}, {r.x + r.width / 2, r.y - 11}}, colors(1));
   if (range.values_above)
     canvas.polyline({{r.x - 0.5, r.y - 1}, {r.x + r.width / 2, r.y - 11}, {r.right() + 0.5, r.y - 1}}, kFrame,
                     1);

@@ -28,9 +28,10 @@ PanelSize panelSize(int width, int height, double room);
 // Needs 34 points of room at the left and 20 below.
 void drawPixelPanel(Canvas&, const Rect& r, const Pixels&);
 
-// Draws a vertical colour bar of the sequential map into `r`, ticks and labels to its right. `unit` stands
+// Draws a vertical colour bar into `r`, ticks and labels to its right. `unit` stands
 // above it.
-void drawColorBar(Canvas&, const Rect& r, const ColorRange&, const ScaledUnit&);
+void drawColorBar(Canvas&, const Rect& r, const ColorRange&, const ScaledUnit&,
+                  Color (*colors)(double) = sequentialColor);
 
 // A small square with what it stands for beside it; returns where the next may start.
 double drawKey(Canvas&, double x, double y, const Color&, bool hatched, const std::string& meaning);

@@ -36,6 +36,7 @@ const auto UseProgram = load<PFNGLUSEPROGRAMPROC>("glUseProgram");
 const auto GetUniformLocation = load<PFNGLGETUNIFORMLOCATIONPROC>("glGetUniformLocation");
 const auto Uniform1i = load<PFNGLUNIFORM1IPROC>("glUniform1i");
 const auto Uniform4iv = load<PFNGLUNIFORM4IVPROC>("glUniform4iv");
+const auto Uniform4uiv = load<PFNGLUNIFORM4UIVPROC>("glUniform4uiv");
 const auto Uniform1fv = load<PFNGLUNIFORM1FVPROC>("glUniform1fv");
 const auto Uniform2fv = load<PFNGLUNIFORM2FVPROC>("glUniform2fv");
 const auto Uniform3fv = load<PFNGLUNIFORM3FVPROC>("glUniform3fv");
@@ -147,7 +148,12 @@ void setUniform(GLuint program, const std::string& name, const Uniform& uniform)
       Uniform3fv(location, 1, floats);
       break;
     default:
-      is_float ? Uniform4fv(location, 1, floats) : Uniform4iv(location, 1, ints);
+      if (is_float)
+        Uniform4fv(location, static_cast<GLsizei>(uniform.words.size() / 4), floats);
+      else if (uniform.type.basic == frontend::Basic::uint_)
+        Uniform4uiv(location, static_cast<GLsizei>(uniform.words.size() / 4), uniform.words.data());
+      else
+        Uniform4iv(location, 1, ints);
   }
 }
 

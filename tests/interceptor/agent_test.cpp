@@ -316,6 +316,7 @@ TEST_P(AgentInScene, coversASquareOfItsOwn) {
   EXPECT_EQ(executed.width, 37);
   EXPECT_EQ(executed.height, 37);
   EXPECT_EQ(executed.times_ns.size(), 4U);
+  EXPECT_EQ(executed.cpu_ns.size(), 4U);
   EXPECT_NE(executed.compare_reason, "");
   ASSERT_FALSE(executed.outputs.empty());
   const std::vector<float> colours = session->values<float>(executed.outputs.back());
@@ -325,6 +326,20 @@ TEST_P(AgentInScene, coversASquareOfItsOwn) {
               (std::vector<float>{-0.25F, 4.5F, 0.7F, 9.0F}))
         << i;
   }
+
+  // Several draws in one request: every repeat draws once per set.
+  for (const float x : {2.0F, 3.0F}) {
+    request.sets.push_back(std::make_unique<wire::UniformSetT>());
+    auto set = std::make_unique<wire::UniformValueT>();
+    set->name = "place_of_one";
+    set->gl_type = 0x8B50;
+    set->words = {word(1), word(2), word(x), word(-x)};
+    request.sets.back()->uniforms.push_back(std::move(set));
+  }
+  const wire::ExecutedT both = session->execute(request);
+  EXPECT_EQ(both.times_ns.size(), 8U);
+  EXPECT_EQ(both.cpu_ns.size(), 8U);
+  EXPECT_EQ(session->values<float>(both.outputs.back())[0], 3.0F) << "the last set is drawn last";
   finishUntouched(*session);
 }
 

@@ -88,26 +88,75 @@ TEST_F(Methods, counts_per_thread_and_per_line_are_the_same_total_and_repeat_exa
   EXPECT_EQ(profileCount(session(), {}).map.cost, count.map.cost);
 }
 
-// The loop's condition runs once more than its body in every thread that does not leave by a break.
-TEST_F(Methods, counts_agree_with_the_loop_profiler) {
+// The loop profiler, the counts of branches, calls and lookups: instrumentations that know nothing of each
+// other.
+TEST_F(Methods, counts_agree_with_each_other) {
   const Profile count = profileCount(session(), {});
-  const session::LoopsReport loops = session::profileLoops(session());
-  ASSERT_FALSE(loops.loops.empty());
-  const session::LoopReport& loop = loops.loops.front();
-  const auto bodies = std::accumulate(loop.active.begin(), loop.active.end(), std::uint64_t{0});
-  const auto hits_of = [&](int line) {
-    const auto found = std::find_if(count.lines.begin(), count.lines.end(),
-                                    [line](const LineCost& cost) { return cost.line == line; });
-    return found == count.lines.end() ? 0 : found->hits;
-  };
-  const frontend::Shader& shader = session().shader(session::Stage::fragment);
-  const auto& statement = shader.statements[static_cast<std::size_t>(loop.statement)];
-  const frontend::StatementId body = statement.children.back();
-  const int first_line = shader
-                             .statements[static_cast<std::size_t>(
-                                 shader.statements[static_cast<std::size_t>(body)].children.front())]
-                             .place.line;
-  EXPECT_EQ(hits_of(first_line), bodies);
+  ASSERT_EQ(count.loops.size(), 1U);
+  const LoopCost& loop = count.loops.front();
+  const auto bodies = std::accumulate(loop.report.active.begin(), loop.report.active.end(), std::uint64_t{0});
+  const auto head = std::find_if(count.branches.begin(), count.branches.end(),
+                                 [](const BranchCost& branch) { return branch.kind == "for"; });
+  ASSERT_NE(head, count.branches.end());
+  EXPECT_EQ(head->taken, bodies);
+  EXPECT_GT(head->evaluated, bodies);
+  EXPECT_GT(loop.active_share, 0.5);
+  EXPECT_LE(loop.active_share, 1);
+  for (const FunctionCalls& function : count.functions)
+    EXPECT_EQ(function.calls, function.name == "classify" ? bodies : count.covered) << function.name;
+  ASSERT_EQ(count.samplers.size(), 3U);
+  for (const SamplerFetches& fetch : count.samplers) {
+    const bool before_loop = fetch.fetches == count.covered;
+    EXPECT_TRUE(before_loop || fetch.fetches == bodies) << fetch.sampler << " at line " << fetch.line;
+  }
+}
+
+TEST_F(Methods, the_critical_path_names_the_longest_threads) {
+  const Profile count = profileCount(session(), {});
+  const LoopCost& loop = count.loops.at(0);
+  ASSERT_FALSE(loop.critical.empty());
+  const auto [x, y] = loop.critical.front();
+  EXPECT_EQ(loop.report.longest[count.map.index(x, y)], loop.report.active.size());
+  EXPECT_LE(loop.critical_threads, std::max<std::uint64_t>(loop.report.threads / 100, 1));
+}
+
+TEST_F(Methods, lines_get_shares_of_measured_costs) {
+  ProfileOptions options;
+  options.budget = 1;
+  for (const Profile& profile : {profileClock(session(), options), profileIsolate(session(), options)}) {
+    ASSERT_TRUE(profile.fit.has_value());
+    EXPECT_GT(profile.fit->rows, 20U);
+    double shares = profile.fit->start_share;
+    for (const LineCost& line : profile.lines) {
+      EXPECT_GE(line.share.value(), 0) << line.line;
+      shares += *line.share;
+    }
+    EXPECT_NEAR(shares, 1, 1e-6) << methodName(profile.method);
+  }
+}
+
+TEST_F(Methods, what_was_measured_before_an_interruption_is_kept) {
+  ProfileOptions options;
+  options.lines = false;
+  options.budget = 1000;
+  options.stop = [] { return true; };
+  const Profile profile = profileIsolate(session(), options);
+  EXPECT_TRUE(profile.interrupted);
+  EXPECT_GT(profile.measured, 0U);
+  EXPECT_LT(profile.measured, profile.covered);
+  EXPECT_EQ(profile.map.costs().size(), profile.covered);
+}
+
+TEST_F(Methods, a_budget_for_less_than_a_pixel_is_said) {
+  ProfileOptions options;
+  options.budget = 1e-9;
+  try {
+    profileIsolate(session(), options);
+    FAIL() << "measured nothing, and did not say so";
+  } catch (const session::Error& error) {
+    EXPECT_EQ(error.outcome(), session::Outcome::usage);
+    EXPECT_NE(std::string(error.what()).find("--budget"), std::string::npos);
+  }
 }
 
 TEST_F(Methods, a_region_leaves_out_the_rest) {

@@ -14,15 +14,21 @@ Profile example() {
   profile.map = CostMap(3, 2);
   profile.passes = 4;
   profile.total = 0.1;
-  profile.reconstruction = Reconstruction{10, 0.05};
-  profile.lines = {{12, 34, std::nullopt}, {13, 1, 0.25}};
+  profile.reconstruction = Reconstruction{10, 0.05, 0.03, 0.01};
+  profile.lines = {{12, 34, std::nullopt, 0}, {13, 1, 0.25, 1}};
   profile.check.compared_at_all = true;
   profile.check.compared = 24;
   return profile;
 }
 
+ProfileFiles files() {
+  ProfileFiles names;
+  names.heat_png = "a/heat.png";
+  return names;
+}
+
 TEST(ProfileDocument, has_the_fields_of_the_command_line_s_promise) {
-  const auto document = toJson(example(), {"a/heat.png", "a/heat.exr", "a/profile.json"});
+  const auto document = toJson(example(), files(), {"a draw", {"void main() {", "}"}});
   for (const char* key : {"method", "unit", "width", "height", "measured", "passes", "seconds", "total",
                           "median", "p95", "spread", "reconstruction", "lines", "files"})
     EXPECT_TRUE(document.contains(key)) << key;
@@ -40,7 +46,7 @@ TEST(ProfileDocument, says_what_json_numbers_cannot) {
   Profile profile = example();
   profile.reconstruction->error = std::numeric_limits<double>::quiet_NaN();
   profile.median = std::numeric_limits<double>::infinity();
-  const auto document = nlohmann::json::parse(toJson(profile, {}).dump());
+  const auto document = nlohmann::json::parse(toJson(profile, {}, {}).dump());
   EXPECT_EQ(document["reconstruction"]["error"], "NaN");
   EXPECT_EQ(document["median"], "Infinity");
   EXPECT_EQ(document["total"], 0.1);
