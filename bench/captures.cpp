@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "instrumenter/measures.h"
 #include "session/window.h"
 #include "walk.h"
 

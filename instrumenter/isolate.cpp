@@ -7,6 +7,8 @@
 
 namespace shadestep::instrumenter {
 
+using frontend::Basic;
+using frontend::Component;
 using frontend::Shader;
 using frontend::Token;
 using frontend::TokenKind;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "instrumenter/measures.h"
 #include "session/loops.h"
 
 namespace shadestep::session {
@@ -97,15 +98,18 @@ void checkCounts(Session& session, Findings& findings, const std::vector<Recorde
 
   Captured captured;
   if (!findings.attempt(nullptr, "count", [&] {
-        auto result = instrumenter::instrumentCount(shader, chosen, session.target());
+        std::vector<instrumenter::Counted> runs;
+        for (const StatementId id : chosen) runs.push_back({instrumenter::Counted::Kind::runs, id});
+        auto result = instrumenter::instrumentCount(shader, runs, session.target());
         if (const auto* failure = std::get_if<instrumenter::Failure>(&result))
           throw Error(Outcome::cannot_debug, failure->reason);
         captured = session.capture(std::get<instrumenter::AttachmentShader>(result));
       }))
     return;
   findings.checkOutputs(nullptr, "count", captured.execution.check);
-  for (const instrumenter::Field& field : captured.layout.fields) {
-    const StatementId id = std::stoi(field.name);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const instrumenter::Field& field = captured.layout.fields.at(i);
+    const StatementId id = chosen[i];
     const Statement& at = shader.statements[static_cast<std::size_t>(id)];
     for (const RecordedPixel& one : recorded) {
       const auto words =

@@ -1,17 +1,33 @@
-// OpenGL 3.3 core: the fragment shader in the file that is named, over all of a 16 x 16 float target.
+// OpenGL 3.3 core: the fragment shader in the file that is named, over all of a square float target of 16 x 16 pixels,
+// or as many as are asked for. Its `uniform vec2 size` is that; its `uniform sampler2D map` is a texture of 64 x 64 whose
+// level l reads as l / 8 everywhere.
 #include <fstream>
 #include <sstream>
 
 #include "osmesa_program.h"
 
+// Bound to unit 0, which is what samplers name unless told otherwise.
+static void makeMap() {
+  GLuint map = 0;
+  glGenTextures(1, &map);
+  glBindTexture(GL_TEXTURE_2D, map);
+  for (int level = 0, width = 64; width > 0; ++level, width /= 2) {
+    const std::vector<float> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(width) * 4,
+                                    static_cast<float>(level) / 8);
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA32F, width, width, 0, GL_RGBA, GL_FLOAT, texels.data());
+  }
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+}
+
 int main(int argc, char** argv) {
-  if (argc < 2) fail("usage: shader-file FRAGMENT_SHADER");
+  if (argc < 2) fail("usage: shader-file FRAGMENT_SHADER [SIDE]");
   std::ifstream file(argv[1], std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
   if (!file) fail("cannot read", argv[1]);
 
-  constexpr int kSide = 16;
+  const int side = argc > 2 ? std::atoi(argv[2]) : 16;
+  if (side < 1) fail("no size:", argv[2]);
   const OsmesaContext context(OsmesaContext::Profile::core);
   GLuint framebuffer = 0;
   GLuint target = 0;
@@ -19,13 +35,16 @@ int main(int argc, char** argv) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glGenRenderbuffers(1, &target);
   glBindRenderbuffer(GL_RENDERBUFFER, target);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, kSide, kSide);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, side, side);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
-  glViewport(0, 0, kSide, kSide);
+  glViewport(0, 0, side, side);
   GLuint vertexArray = 0;
   glGenVertexArrays(1, &vertexArray);
   glBindVertexArray(vertexArray);
-  glUseProgram(linkProgram(kCornerVertex, text.str().c_str()));
+  const GLuint program = linkProgram(kCornerVertex, text.str().c_str());
+  glUseProgram(program);
+  glUniform2f(glGetUniformLocation(program, "size"), static_cast<float>(side), static_cast<float>(side));
+  makeMap();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glFinish();
 }
