@@ -105,7 +105,7 @@ class Demo:
     def heat(self):
         seconds, _ = run(self.shadestep("profile", "--out", OUT))
         profile = json.loads((OUT / "profile.json").read_text())
-        self.step(["heat.png", "heat.exr", "profile.json"],
+        self.step(["report.html", "heat.png", "heat.exr", "height.png", "profile.json"],
                   f"method {profile['method']}: median {profile['median']:,.0f} {profile['unit']} a pixel, "
                   f"95% below {profile['p95']:,.0f}", seconds)
 

@@ -28,13 +28,45 @@ TEST(Profile, writes_its_files_and_the_document_it_prints) {
   EXPECT_GT(document["lines"].size(), 5U);
   EXPECT_EQ(readFile(scratch.file("result/heat.png")).substr(1, 3), "PNG");
   EXPECT_EQ(readFile(scratch.file("result/heat.exr")).substr(0, 4), "\x76\x2f\x31\x01");
+  EXPECT_EQ(readFile(scratch.file("result/height.png")).substr(1, 3), "PNG");
   EXPECT_EQ(Json::parse(readFile(scratch.file("result/profile.json"))), document);
+  // The report asks nothing of anywhere else.
+  const std::string report = readFile(scratch.file("result/report.html"));
+  EXPECT_THAT(report, testing::HasSubstr("\"method\":\"count\""));
+  for (const char* elsewhere : {"src=", "href=", "@import", "url(", "fetch("})
+    EXPECT_THAT(report, testing::Not(testing::HasSubstr(elsewhere)));
+}
+
+// Counts have no noise: the longer rays are dearer, the same ones are the same.
+TEST(Profile, compares_with_an_earlier_run) {
+  const Scratch scratch;
+  const auto profile = [&](const std::string& out, const std::string& limit,
+                           std::vector<std::string> options) {
+    options.insert(options.begin(), {"profile", "--method", "count", "--json", "--out", out});
+    std::vector<std::string> program = kRaycaster;
+    program.insert(program.end(), {"--transfer", "opaque", "--ert", limit});
+    return scratch.shadestep(options, program);
+  };
+  ASSERT_EQ(profile("early", "0.95", {}).status, 0);
+  const Finished dearer = profile("all", "0", {"--compare", scratch.file("early/profile.json")});
+  EXPECT_EQ(dearer.status, 1) << dearer.err;
+  EXPECT_EQ(dearer.json()["comparison"]["verdict"], "dearer");
+  EXPECT_EQ(readFile(scratch.file("all/difference.png")).substr(1, 3), "PNG");
+  const Finished cheaper = profile("again", "0.95", {"--compare", scratch.file("all/profile.json")});
+  EXPECT_EQ(cheaper.status, 0) << cheaper.err;
+  EXPECT_EQ(cheaper.json()["comparison"]["verdict"], "cheaper");
+  EXPECT_GT(cheaper.json()["comparison"]["pixels"]["cheaper"], 0);
+  const Finished same = profile("same", "0.95", {"--compare", scratch.file("again/profile.json")});
+  EXPECT_EQ(same.status, 0) << same.err;
+  EXPECT_EQ(same.json()["comparison"]["change"], 0.0);
+  EXPECT_EQ(same.json()["comparison"]["pixels"]["dearer"], 0);
 }
 
 TEST(Profile, refuses_what_it_does_not_have_and_writes_nothing) {
   const Scratch scratch;
   for (const std::vector<std::string>& options : {std::vector<std::string>{"--compare", "old.json"},
-                                                  {"--error", "5%"},
+                                                  {"--error", "little"},
+                                                  {"--error", "0%"},
                                                   {"--roi", "1,2,3"},
                                                   {"--roi", "0,0,0,5"},
                                                   {"--method", "guess"},
