@@ -10,8 +10,8 @@
 namespace shadestep::instrumenter {
 
 // Per loop of the shader four uint fields: "entries" (times entered), "iterations" (bodies begun, all
-// entries together), "longest" (bodies begun in the longest entry), "cut" (entries that ended although neither
-// the condition nor a jump ended them). Fields are named "<statement id>.entries", ...
+// entries together), "longest" (bodies begun in the longest entry), "cut" (entries that ended although
+// neither the condition nor a jump ended them). Fields are named "<statement id>.entries", ...
 Result<AttachmentShader> instrumentLoops(const frontend::Shader&,
                                          const std::vector<frontend::StatementId>& loops, const Target&);
 
@@ -57,7 +57,7 @@ struct IsolatedInput {
 enum class Isolation {
   plain,  // every fragment does what one thread did
   quad,   // every 2 x 2 quad of fragments does what the four threads of one quad did: derivatives and levels
-         // of detail are the true ones
+          // of detail are the true ones
 };
 struct IsolatedShader {
   std::string text;           // the user's shader with inputs replaced; nothing is captured

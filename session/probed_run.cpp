@@ -216,6 +216,7 @@ class ProbedRun {
       return past;
     }
     Step& step = push(Step::Kind::enter, inside);
+    step.call = inside.call_path.back();
     const frontend::Function& callee = shader_.functions[static_cast<std::size_t>(call.callee)];
     const frontend::Place header = shader_.tokens[static_cast<std::size_t>(callee.name_token)].place;
     step.line = header.line;

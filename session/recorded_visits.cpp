@@ -89,7 +89,7 @@ class Walk {
         break;
       }
       case Event::statement:
-        if (!announced_.contains(at)) tell(at, Probe::When::before);
+        if (!announced_.contains(at) && begun_.erase(at) == 0) tell(at, Probe::When::before);
         learn(layout, record, 0);
         tell(at, Probe::When::after);
         break;
@@ -110,6 +110,7 @@ class Walk {
       case Event::choice:
         break;
       case Event::declarator:
+        if (!announced_.contains(at) && begun_.insert(at).second) tell(at, Probe::When::before);
         for (std::size_t i = 0; i < layout.fields.size(); ++i) {
           const VariableId id = recordedVariable(shader_, layout, layout.fields[i].name);
           if (id != kNone) remember(layout, id, record.values.at(i));
@@ -187,6 +188,7 @@ class Walk {
   const instrumenter::RecordingLayout& layout_;
   const std::function<void(const Visit&)>& visit_;
   std::set<StatementId> announced_;  // have a record of their own before they run
+  std::set<StatementId> begun_;      // declarations of which the first names are there
   std::vector<std::vector<Loop>> frames_;
   KnownValues known_;
 };

@@ -99,17 +99,27 @@ TEST(ForcedTests, DecideOnWhichFragmentIsVisible) {
 
 TEST(ForcedTests, HoldForAllThreadsToo) {
   const Scratch scratch;
-  const auto launched = [&](std::vector<std::string> options) {
-    std::vector<std::string> arguments = {"debug", "--at", "6", "--print", "which", "--json"};
+  // Threads that are visible, those that end in a discard where none is, and which is seen on a pixel at the
+  // right.
+  struct Seen {
+    int visible = 0, discarded = 0;
+    double which = 0;
+    bool operator==(const Seen&) const = default;
+  };
+  const auto seen = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"debug", "--at",    "6",     "--print",
+                                          "which", "--pixel", "40,20", "--json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Json found = scratch.shadestep(arguments, {hits()}).json();
     EXPECT_EQ(found["check"]["outputs"], "identical");
-    return std::pair(found["threads"]["launched"].get<int>(), found["values"]["which"]["max"].get<double>());
+    const int discarded = found["threads"]["discarded"];
+    return Seen{found["threads"]["launched"].get<int>() - discarded, discarded,
+                found["values"]["which"]["at_pixel"].get<double>()};
   };
-  EXPECT_EQ(launched({}), std::pair(48 * 64, 1.0));
-  EXPECT_EQ(launched({"--stencil-test", "off"}), std::pair(64 * 64, 1.0));
-  EXPECT_EQ(launched({"--depth-test", "off"}), std::pair(48 * 64, 2.0));
-  EXPECT_EQ(launched({"--buffers", "clear"}), std::pair(64 * 64, 1.0));
+  EXPECT_EQ(seen({}), (Seen{48 * 64, 16 * 64, 1.0}));
+  EXPECT_EQ(seen({"--stencil-test", "off"}), (Seen{64 * 64, 0, 1.0}));
+  EXPECT_EQ(seen({"--depth-test", "off"}), (Seen{48 * 64, 16 * 64, 2.0}));
+  EXPECT_EQ(seen({"--buffers", "clear"}), (Seen{64 * 64, 0, 1.0}));
 }
 
 TEST(ForcedTests, ChangeTheReplayAndNotTheProgram) {

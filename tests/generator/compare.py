@@ -27,11 +27,35 @@ def too_wide(t: Type) -> bool:
     return sum(2 if base == "double" else 1 for base in t.bases()) > WIDEST
 
 
+def whole_declarations(shown: list[dict]) -> list[dict]:
+    """The steps of a declaration's single names go into the one that ends it; what comes between sees them as `before`."""
+    whole: list[dict] = []
+    open_at: dict[int, dict] = {}  # depth -> what the names so far have changed
+    for step in shown:
+        if step["kind"] == "declarator":
+            open_at.setdefault(step["depth"], {}).update(step["changed"])
+        elif step["kind"] == "statement" and step["depth"] in open_at:
+            whole.append(step | {"changed": open_at.pop(step["depth"]) | step["changed"]})
+        else:
+            before = {name: one for changed in open_at.values() for name, one in changed.items()}
+            whole.append(step | {"before": before} if before else step)
+    return whole
+
+
+def calls_nothing(steps: list[Step], n: int) -> bool:
+    """A call that literals keep from being made may be announced or not."""
+    return steps[n].kind == "call" and (n + 1 == len(steps) or steps[n + 1].kind != "enter")
+
+
 def steps(shown: list[dict], pixel: Pixel, interpreter: Interpreter) -> list[str]:
     """Every step: its place, what it is, which way it went, every value that changed, and that none is missing."""
     problems: list[str] = []
     view: list[dict[Variable, list]] = [{}, {}]  # globals, then a dictionary a call
+    shown = whole_declarations(shown)
     for n, truth in enumerate(pixel.steps):
+        if calls_nothing(pixel.steps, n) and (n >= len(shown) or shown[n]["kind"] != "call"):
+            shown.insert(n, {"line": truth.at.line, "column": truth.at.column, "function": truth.function,
+                             "kind": "call", "depth": truth.depth, "iteration": truth.iteration, "changed": {}})
         if len(problems) >= MOST:
             break
         if n >= len(shown):
@@ -49,7 +73,10 @@ def steps(shown: list[dict], pixel: Pixel, interpreter: Interpreter) -> list[str
         if truth.kind == "enter":
             del view[truth.depth + 1:]
             view.append({})
-        problems += [f"step {n}, {describe(truth)}: {one}" for one in values(step["changed"], truth, view, interpreter)]
+        changed = {name: one for name, one in step.get("before", {}).items()
+                   if name in truth.values and truth.values[name][0].storage not in ("local", "parameter")}
+        problems += [f"step {n}, {describe(truth)}: {one}"
+                     for one in values(changed | step["changed"], truth, view, interpreter)]
     else:
         if len(shown) > len(pixel.steps):
             problems.append(f"{len(shown)} steps instead of {len(pixel.steps)}")

@@ -159,7 +159,7 @@ TEST(Recording, SplitsDeclarationsWhoseInitializersDoMore) {
                                  "int g = 0;\nint f() { return ++g; }\nvoid main() {\n"
                                  "int a = f(), b = a + 1, c, d = f();\nint x = n, y = x;\n}");
   EXPECT_EQ(described(shader, recording(shader).layout),
-            "enter 6\nenter 7\nleave 7\nreturn 6 return g\nbefore 8\nstatement 8 g a b c d\n"
+            "enter 6 g\nenter 7\nleave 7\nreturn 6 return g\nbefore 8\nstatement 8 g a b c d\n"
             "declarator 8 g a\ndeclarator 8 g a b c\ncall 8\ncall 8\nstatement 9 x y\n");
   expectPart(recording(shader).text, ", b = ((sd_record(7, 2) && (sd_words");
 }

@@ -1,6 +1,7 @@
 // What holds of every instrumented text of a shader.
 #include <gtest/gtest.h>
 
+#include "instrumenter/measures.h"
 #include "shaders.h"
 
 namespace shadestep::instrumenter::test {
