@@ -24,6 +24,10 @@ void warnOfLoopLimit(const Gl& gl, const Volume& volume, double step) {
 void drawFrames(Context& context, const Gl& gl, const Options& options) {
   const Volume volume = volumeFor(options);
   Prepared prepared = prepare(gl, options, volume, cameraFor(options, volume, 0), options.countFetches);
+  if (options.printShader) {
+    std::cout << prepared.fragmentShader;
+    return;
+  }
   if (options.explain) std::cout << prepared.explanation;
   warnOfLoopLimit(gl, volume, prepared.step);
   Image image;

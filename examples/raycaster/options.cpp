@@ -56,6 +56,11 @@ void addChoices(CLI::App& app, Options& options) {
          "--budget", options.budget,
          "choose step, tables, termination and wavelengths so that the error stays below this; 0: as given")
       ->check(number(0.0, 1.0));
+  app.add_option("--shader", options.shaderFile, "draw with the fragment shader in this file")
+      ->check(CLI::ExistingFile);
+  app.add_flag("--print-shader", options.printShader, "print the fragment shader for these options and end");
+  app.add_flag("--printed-matrix", options.printedMatrix,
+               "convert a medium's colours with the matrix of the thesis as printed");
   app.add_flag("--explain", options.explain, "print the plan for --budget");
   app.add_flag("--bench", options.bench, "print times and fetches as JSON");
   app.add_flag("--fetches", options.countFetches, "draw how many texels each ray fetches");

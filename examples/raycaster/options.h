@@ -25,6 +25,9 @@ struct Options {
   bool leap = false;
   double adaptive = 0;  // tolerance; 0 = off
   double budget = 0;    // root mean square error that a plan has to keep; 0 = the settings above as they are
+  std::string shaderFile;  // a fragment shader to draw with instead of the assembled one
+  bool printShader = false;
+  bool printedMatrix = false;  // XYZ to RGB as the thesis prints it
   bool explain = false, bench = false, interactive = false, countFetches = false;
   int size = 512;              // image, pixels an edge
   double step = 1.0 / 256;     // object space; the volume's edge is 1

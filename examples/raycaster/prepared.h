@@ -13,9 +13,10 @@ Volume volumeFor(const Options&);
 
 struct Prepared {
   std::unique_ptr<Drawing> drawing;
-  std::string summary;      // the settings, in a line
-  std::string explanation;  // of the plan; "" without one
-  double step = 0;          // of the rays
+  std::string summary;         // the settings, in a line
+  std::string explanation;     // of the plan; "" without one
+  double step = 0;             // of the rays
+  std::string fragmentShader;  // "" for slices and leaping
 };
 
 // In the current context. Without --budget the settings are the options' own. `forCounting` draws fetches.

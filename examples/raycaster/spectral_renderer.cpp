@@ -61,7 +61,8 @@ SpectralRenderer::SpectralRenderer(const Gl& gl, const SpectralScene& scene,
       objects_(gl_),
       mesh_(gl_, objects_, permutation.glsl) {
   createVolumeTexture(gl_, objects_, scene.volume);
-  createMedium(scene, spectralBins(scene.wavelengths));
+  createMedium(scene, spectralBins(scene.wavelengths, "/usr/share/colord",
+                                   scene.printedMatrix ? kPrintedXyzToRgb : kXyzToRgb));
   program_ = objects_.program(text);
   setUniform(gl_, program_, "volume", 0);
   setUniform(gl_, program_, "medium", 1);

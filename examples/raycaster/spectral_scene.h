@@ -32,6 +32,7 @@ struct SpectralScene {
   int tableBits = 32;
   Storage storage = Storage::coefficients;
   Backdrop backdrop = {};
+  bool printedMatrix = false;  // the thesis's XYZ to RGB, to see what it does
 };
 
 }  // namespace raycaster

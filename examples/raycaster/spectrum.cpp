@@ -21,6 +21,8 @@ std::vector<double> numbers(std::istream& stream) {
 
 const Eigen::Matrix3d kXyzToRgb =
     (Eigen::Matrix3d() << 1.967, -0.548, -0.297, -0.955, 1.938, -0.027, 0.064, -0.130, 0.982).finished();
+const Eigen::Matrix3d kPrintedXyzToRgb =
+    (Eigen::Matrix3d() << 1.967, -0.548, -0.297, -0.5388, 1.938, -0.130, 0.064, -0.027, 0.982).finished();
 
 double SampledSpectrum::at(double wavelength) const {
   const double place = (wavelength - first) / step;
@@ -56,7 +58,7 @@ std::vector<SampledSpectrum> readSpectra(const std::string& path) {
   return spectra;
 }
 
-std::vector<SpectralBin> spectralBins(int count, const std::string& folder) {
+std::vector<SpectralBin> spectralBins(int count, const std::string& folder, const Eigen::Matrix3d& matrix) {
   const SampledSpectrum light = readSpectra(folder + "/illuminant/CIE-D65.sp").front();
   const std::vector<SampledSpectrum> observer = readSpectra(folder + "/cmf/CIE1964-10deg-XYZ.cmf");
   if (observer.size() != 3) throw std::runtime_error("the observer in '" + folder + "' has not three curves");
@@ -78,7 +80,7 @@ std::vector<SpectralBin> spectralBins(int count, const std::string& folder) {
       moment += part.sum() * wavelength;
     }
     white += xyz.y();
-    bins.push_back({moment / seen, kXyzToRgb * xyz});
+    bins.push_back({moment / seen, matrix * xyz});
   }
   for (SpectralBin& bin : bins) bin.weight /= white;
   return bins;

@@ -21,6 +21,7 @@ std::vector<SampledSpectrum> readSpectra(const std::string& path);
 // XYZ -> RGB (rows R, G, B). The thesis's 3.3.3 prints it with the green row's first and last entries
 // exchanged with the blue row's, which turns D65 green; this one sends it to white within 2%.
 extern const Eigen::Matrix3d kXyzToRgb;
+extern const Eigen::Matrix3d kPrintedXyzToRgb;
 
 // A part of the visible spectrum.
 struct SpectralBin {
@@ -30,6 +31,7 @@ struct SpectralBin {
 
 // 380 to 780 nm in `count` equal bins. Reads colord's tables; throws std::runtime_error that names the
 // package where they are missing.
-std::vector<SpectralBin> spectralBins(int count, const std::string& folder = "/usr/share/colord");
+std::vector<SpectralBin> spectralBins(int count, const std::string& folder = "/usr/share/colord",
+                                      const Eigen::Matrix3d& matrix = kXyzToRgb);
 
 }  // namespace raycaster
