@@ -163,7 +163,7 @@ def draw(name):
     elif name == "storage":
         chart(name, "What a Kubelka-Munk table holds (C60, milk)", [by_fetches, largest])
     elif name == "adaptive":
-        chart(name, "Adaptive sampling (C60 128, limit 0.999; step 1/64 to 1/1024)", [by_fetches, largest, time])
+        chart(name, "Adaptive sampling (C60 128, limit 0.999; step 1/64 to 1/1024)", [by_fetches, largest])
 
 
 NAMES = ["step", "table", "termination", "leaping", "wavelengths", "storage", "adaptive"]
