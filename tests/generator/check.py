@@ -161,7 +161,7 @@ class Check:
         kinds = ("statement", "condition")
         own = [step for step in shown if step["depth"] == 0 and step["kind"] in kinds]
         truth = [step for step in pixel.steps if step.depth == 0 and step.kind in kinds]
-        return compare.steps(own, replace(pixel, steps=truth), self.interpreter)
+        return compare.steps(own, replace(pixel, steps=truth), self.interpreter, complete=False)
 
     def place(self) -> bool:
         """All threads at one place, the last time that they got there."""

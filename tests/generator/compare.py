@@ -47,8 +47,9 @@ def calls_nothing(steps: list[Step], n: int) -> bool:
     return steps[n].kind == "call" and (n + 1 == len(steps) or steps[n + 1].kind != "enter")
 
 
-def steps(shown: list[dict], pixel: Pixel, interpreter: Interpreter) -> list[str]:
-    """Every step: its place, what it is, which way it went, every value that changed, and that none is missing."""
+def steps(shown: list[dict], pixel: Pixel, interpreter: Interpreter, complete: bool = True) -> list[str]:
+    """Every step: its place, what it is, which way it went, every value that changed, and that none is missing (unless
+    the steps are not complete)."""
     problems: list[str] = []
     view: list[dict[Variable, list]] = [{}, {}]  # globals, then a dictionary a call
     shown = whole_declarations(shown)
@@ -76,7 +77,7 @@ def steps(shown: list[dict], pixel: Pixel, interpreter: Interpreter) -> list[str
         changed = {name: one for name, one in step.get("before", {}).items()
                    if name in truth.values and truth.values[name][0].storage not in ("local", "parameter")}
         problems += [f"step {n}, {describe(truth)}: {one}"
-                     for one in values(changed | step["changed"], truth, view, interpreter)]
+                     for one in values(changed | step["changed"], truth, view, interpreter, complete)]
     else:
         if len(shown) > len(pixel.steps):
             problems.append(f"{len(shown)} steps instead of {len(pixel.steps)}")
@@ -87,7 +88,7 @@ def describe(step: Step) -> str:
     return f"{step.kind} at {step.at.line}:{step.at.column} in {step.function}"
 
 
-def values(changed: dict, truth: Step, view: list[dict], interpreter: Interpreter) -> list[str]:
+def values(changed: dict, truth: Step, view: list[dict], interpreter: Interpreter, complete: bool) -> list[str]:
     problems = []
     # What changes where an inner name hides it is unknown until it is shown again.
     for v in [v for v in view[0] if truth.hidden.get(v) not in (None, view[0][v])]:
@@ -111,7 +112,7 @@ def values(changed: dict, truth: Step, view: list[dict], interpreter: Interprete
         if not same(right, got):
             problems.append(f"{name} = {got}, must be {right}")
         slot(v, truth, view)[v] = got
-    for name, (v, right) in truth.values.items():
+    for name, (v, right) in truth.values.items() if complete else ():
         if too_wide(v.type) or v.name.startswith("gl_") or v.storage == "condition":
             continue
         known = slot(v, truth, view).get(v)

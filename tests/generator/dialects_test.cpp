@@ -73,6 +73,17 @@ void main() {
   EXPECT_EQ(counted.json().at("loops").at(0).at("active"), Json({30, 30, 25, 20}));
 }
 
+// A loop has three counters; the draw buffers hold 27 words beside the mark.
+TEST_F(Dialects, MoreLoopsAreCountedThanFitOnePass) {
+  std::string shader = "out vec4 color;\nvoid main() {\n  int sum = 0;\n";
+  for (int n = 1; n <= 12; ++n) shader += "  for (int i = 0; i < " + std::to_string(n) + "; ++i) sum += i;\n";
+  const Finished counted = run({"loops", "--json"}, "330 core", shader + "  color = vec4(sum);\n}\n");
+  ASSERT_EQ(counted.status, 0) << counted.err;
+  const Json loops = counted.json().at("loops");
+  ASSERT_EQ(loops.size(), 12u);
+  for (std::size_t n = 0; n < loops.size(); ++n) EXPECT_EQ(loops.at(n).at("max"), n + 1);
+}
+
 // In OpenGL ES the text alone gives a storage block its binding.
 TEST_F(Dialects, RecordingsStandBesideStorageBlocksInEs) {
   const std::string shader = R"glsl(
@@ -153,6 +164,25 @@ void main() {
     EXPECT_EQ(shown, 7);
   }
   EXPECT_TRUE(entered);
+}
+
+TEST_F(Dialects, ACallInAConditionBelongsToTheIterationThatItDecidesOn) {
+  const Finished recorded = run({"debug", "--pixel", "1,1", "--json"}, "330 core", R"glsl(
+out vec4 color;
+bool less(int a, int b) { return a < b; }
+void main() {
+  int sum = 0;
+  for (int i = 0; less(i, 2); ++i) sum += int(less(i, 1));
+  color = vec4(sum);
+}
+)glsl");
+  ASSERT_EQ(recorded.status, 0) << recorded.err;
+  std::vector<Json> entered;
+  const Json run = recorded.json();
+  for (const Json& step : run.at("steps")) {
+    if (step.at("kind") == "enter") entered.push_back(step.at("iteration"));
+  }
+  EXPECT_EQ(entered, (std::vector<Json>{{0}, {0}, {1}, {1}, {2}}));
 }
 
 TEST_F(Dialects, ADeclaredNameCanBeLookedAtBehindItsDeclaration) {
