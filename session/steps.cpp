@@ -42,6 +42,7 @@ class Follower {
     StatementId statement = kNone;
     int iteration = -1;
     bool goes_on = false;  // nothing that was recorded ends it
+    bool decides = false;  // its condition calls a function, about the iteration that follows
   };
   struct Frame {
     FunctionId function = kNone;
@@ -100,7 +101,8 @@ class Follower {
   std::vector<int> iterations() const {
     std::vector<int> result;
     for (const Frame& frame : stack_) {
-      for (const Loop& loop : frame.loops) result.push_back(std::max(loop.iteration, 0));
+      for (const Loop& loop : frame.loops)
+        result.push_back(loop.decides ? loop.iteration + 1 : std::max(loop.iteration, 0));
     }
     return result;
   }
@@ -224,8 +226,20 @@ class Follower {
     return only;
   }
 
+  // A condition that is evaluated before the body belongs to the iteration that it admits, and so do its
+  // calls.
+  bool isInLoopCondition(CallId id) const {
+    const StatementId loop = call(id).statement;
+    if (loop == kNone || stack_.back().loops.empty() || stack_.back().loops.back().statement != loop)
+      return false;
+    const frontend::Statement& at = statement(loop);
+    return at.kind != StatementKind::do_while && call(id).name >= at.expression.first &&
+           call(id).name <= at.expression.last;
+  }
+
   void enter(const RecordLayout& layout, const Record& record) {
     const CallId from = callInto(layout.function);
+    if (from != kNone && isInLoopCondition(from)) stack_.back().loops.back().decides = true;
     stack_.push_back({layout.function, {}, {}, kNone, {}, {}, {}});
     if (layout.function == shader_.main) return;
     Step& step = push(Step::Kind::enter, layout);
@@ -256,6 +270,7 @@ class Follower {
     if (layout.event == Event::function_enter) return enter(layout, record);
     if (stack_.empty()) return;
     if (layout.statement != kNone) leaveLoopsAround(layout.statement);
+    if (!stack_.back().loops.empty()) stack_.back().loops.back().decides = false;
 
     switch (layout.event) {
       case Event::before:
