@@ -12,11 +12,12 @@ using frontend::Shader;
 
 // The part of a variable's value that an expression like "a", "a.x" or "m[1]" names; `expression` is the
 // watch's.
-NamedValue partOf(const Shader& shader, const frontend::Watch& watch, const instrumenter::Value& whole) {
+instrumenter::Value partOf(const Shader& shader, const frontend::Watch& watch,
+                           const instrumenter::Value& whole) {
   const std::string& name = shader.variables[static_cast<std::size_t>(watch.variable)].name;
   std::string access = watch.expression.substr(std::min(name.size(), watch.expression.size()));
   std::erase(access, ' ');
-  NamedValue part{watch.expression, {watch.type, {}}};
+  instrumenter::Value part{watch.type, {}};
   std::size_t word = 0;
   for (const frontend::Component& component : frontend::components(whole.type)) {
     const auto words = static_cast<std::size_t>(wordsPerComponent(component.basic));
@@ -24,12 +25,12 @@ NamedValue partOf(const Shader& shader, const frontend::Watch& watch, const inst
                         (component.access.size() == access.size() || access.empty() ||
                          component.access[access.size()] == '.' || component.access[access.size()] == '[');
     if (inside) {
-      part.value.words.insert(part.value.words.end(), whole.words.begin() + static_cast<std::ptrdiff_t>(word),
-                              whole.words.begin() + static_cast<std::ptrdiff_t>(word + words));
+      part.words.insert(part.words.end(), whole.words.begin() + static_cast<std::ptrdiff_t>(word),
+                        whole.words.begin() + static_cast<std::ptrdiff_t>(word + words));
     }
     word += words;
   }
-  if (part.value.words.empty()) {
+  if (part.words.empty()) {
     throw Error(Outcome::cannot_debug, "'" + watch.expression +
                                            "' cannot be taken out of a recording; print '" + name +
                                            "', or one component of it");
@@ -38,6 +39,16 @@ NamedValue partOf(const Shader& shader, const frontend::Watch& watch, const inst
 }
 
 }  // namespace
+
+instrumenter::Value recordedValue(const Shader& shader, const LastVisit& visit,
+                                  const frontend::Watch& watch) {
+  const auto known = visit.known.find(watch.variable);
+  if (known != visit.known.end()) return partOf(shader, watch, known->second.value);
+  throw Error(Outcome::cannot_debug,
+              "'" + watch.expression +
+                  "' is not in the recording, which holds what the shader itself sets; "
+                  "leave --hit or --plan recording out to see it");
+}
 
 HitValues valuesOfHit(Session& session, int x, int y, int hit, const PlaceSelection& place,
                       const std::vector<std::string>& names) {
@@ -58,14 +69,7 @@ HitValues valuesOfHit(Session& session, int x, int y, int hit, const PlaceSelect
   result.reached = visit.has_value();
   for (const frontend::Watch& watch : watches) {
     if (!visit) break;
-    const auto known = visit->known.find(watch.variable);
-    if (known == visit->known.end()) {
-      throw Error(Outcome::cannot_debug,
-                  "'" + watch.expression +
-                      "' is not in the recording, which holds what the shader itself sets; leave "
-                      "--hit out to see the visible fragment's");
-    }
-    result.values.push_back(partOf(shader, watch, known->second.value));
+    result.values.push_back({watch.expression, recordedValue(shader, *visit, watch)});
   }
   return result;
 }

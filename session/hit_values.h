@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "session/recorded_visits.h"
 #include "session/thread_run.h"
 #include "session/thread_values.h"
 
@@ -17,6 +18,9 @@ struct HitValues {
   std::vector<NamedValue> values;
   Check check;
 };
+
+// What a recorded thread had in a variable, or a part of one. Throws cannot_debug for what is not recorded.
+instrumenter::Value recordedValue(const frontend::Shader&, const LastVisit&, const frontend::Watch&);
 
 // Throws nothing_matches for a pixel, a hit, a place or a name that is not there, cannot_debug where the
 // driver cannot record, for a place inside a chosen call, and for names that a recording does not hold (what

@@ -1,5 +1,6 @@
 #include "session/plan.h"
 
+#include "session/recording_plan.h"
 #include "session/window_plan.h"
 
 namespace shadestep::session {
@@ -40,6 +41,7 @@ std::optional<Plan> planByName(const std::string& name) {
   if (name == "auto") return Plan::automatic;
   if (name == "single") return Plan::single;
   if (name == "window") return Plan::window;
+  if (name == "recording") return Plan::recording;
   return std::nullopt;
 }
 
@@ -49,6 +51,8 @@ std::unique_ptr<CapturePlan> makePlan(Session& session, Plan plan) {
       return std::make_unique<SinglePlan>(session);
     case Plan::window:
       return std::make_unique<WindowPlan>(session);
+    case Plan::recording:
+      return std::make_unique<RecordingPlan>(session);
     case Plan::automatic:
       break;
   }

@@ -14,9 +14,10 @@ enum class Plan {
   automatic,  // the cheapest that fits
   single,     // one probe, compiled for each place
   window,     // the probes around a place compiled once: another place among them costs a draw
+  recording,  // all steps of all threads in one draw
 };
 
-// "auto", "single", "window"; nothing for another name.
+// "auto", "single", "window", "recording"; nothing for another name.
 std::optional<Plan> planByName(const std::string&);
 
 // Serves the draw that the session stands at, and no longer.

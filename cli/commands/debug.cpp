@@ -70,9 +70,11 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
                    "the printed values, a row per thread (with --pixel alone: a row per step)")
       ->type_name("F");
   command
-      ->add_option("--plan", options->plan,
-                   "how to get at the values of --at; they are the same by every plan")
-      ->check(CLI::IsMember({"auto", "single", "window"}));
+      ->add_option(
+          "--plan", options->plan,
+          "how to get at the values, which are the same by every plan: single (a pixel's run: a probe "
+          "per step), window, recording; auto: what fits")
+      ->check(CLI::IsMember({"auto", "single", "window", "recording"}));
   addFragmentOptions(*command, options->fragments);
   command->add_flag("--continue", options->let_run,
                     "then let the program run to its own end; default is to end it");

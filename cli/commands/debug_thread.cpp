@@ -5,6 +5,8 @@
 
 #include "cli/commands/debug.h"
 #include "profiler/pictures/files.h"
+#include "session/plan.h"
+#include "session/probed_run.h"
 #include "session/thread_run.h"
 #include "session/values.h"
 
@@ -196,11 +198,23 @@ std::string asCsv(const ThreadRun& run) {
   return csv;
 }
 
+ThreadRun follow(session::Session& session, const DebugOptions& options, int x, int y) {
+  const session::Plan plan = session::planByName(options.plan).value_or(session::Plan::automatic);
+  if (plan == session::Plan::window || (plan == session::Plan::single && options.hit >= 0)) {
+    throw session::Error(
+        session::Outcome::usage,
+        "a pixel's run is followed by --plan recording, or its visible fragment's by --plan single");
+  }
+  if (plan == session::Plan::single) return session::followPixelByProbes(session, x, y);
+  if (plan == session::Plan::recording) session.prepareRecording();  // throws where there is none
+  return session::followPixel(session, x, y, options.hit);
+}
+
 }  // namespace
 
 int debugThread(session::Session& session, const Common& common, const DebugOptions& options) {
   const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
-  const ThreadRun run = session::followPixel(session, pixel[0], pixel[1], options.hit);
+  const ThreadRun run = follow(session, options, pixel[0], pixel[1]);
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(run));
   if (common.json) {
     Json document = asJson(session.shader(session::Stage::fragment), run);

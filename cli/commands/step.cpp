@@ -360,9 +360,11 @@ void addStep(CLI::App& app, Common& common, Action& action) {
       ->add_option("--pixel", options->pixel, "the picked thread: its values are shown, its side is followed")
       ->type_name("X,Y");
   command
-      ->add_option("--plan", options->plan,
-                   "single: one compilation per step; window: one for the steps around; auto: what fits")
-      ->check(CLI::IsMember({"auto", "single", "window"}));
+      ->add_option(
+          "--plan", options->plan,
+          "single: one compilation per step; window: one for the steps around; recording: one draw for "
+          "all steps; auto: what fits")
+      ->check(CLI::IsMember({"auto", "single", "window", "recording"}));
   addFragmentOptions(*command, options->fragments);
   command->footer(kHelp);
   command->callback(
