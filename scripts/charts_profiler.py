@@ -39,7 +39,7 @@ REFERENCE = ["--share", "1", "--repeats", "15", "--budget", "300"]
 
 
 def subjects(size):
-    shader = lambda name: [BIN / "programs/shader_file", ROOT / f"examples/shaders/{name}.frag", size]
+    shader = lambda name: [BIN / "programs/shader-file", ROOT / f"examples/shaders/{name}.frag", size]
     return {"ray caster": [BIN / "raycaster", "--size", size], "mandelbrot": shader("mandelbrot"),
             "spheres": shader("spheres"), "noise": shader("noise")}
 
