@@ -135,9 +135,9 @@ def slot(v: Variable, truth: Step, view: list[dict]) -> dict:
 
 
 def loops(shown: list[dict], pixels: list[Pixel]) -> list[str]:
-    """Iterations of the threads that are visible."""
+    """Iterations of all threads, those that end in a discard included."""
     problems = []
-    alive = [p for p in pixels if not p.discarded]
+    alive = pixels
     by_place: dict[tuple, list] = {}
     for p in alive:
         for s, counts in p.loops.items():
