@@ -16,6 +16,7 @@
 #include "interceptor/agent/stop.h"
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
+#include "interceptor/calls/watch.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "wire/channel.h"
@@ -139,7 +140,7 @@ std::string programPath() {
 // A forked child has its parent's socket and page: it leaves both alone.
 void inForkedChild() {
   armed.store(false, kRelaxed);
-  watchCalls(nullptr);
+  calls::watching.store(false, kRelaxed);  // no lock: a thread that is not here may hold it
   const wire::StatusPage* parents = page.load(kRelaxed);
   own_page.frame.store(parents->frame.load(kRelaxed), kRelaxed);
   own_page.draw.store(parents->draw.load(kRelaxed), kRelaxed);
