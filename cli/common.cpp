@@ -159,21 +159,6 @@ Json toJson(const session::Check& check) {
   return json;
 }
 
-std::string describe(const session::Check& check) {
-  std::string left_out = check.left_out.empty() ? "" : "\nnote: " + check.left_out;
-  if (check.undefined > 0) {
-    left_out += "\nnote: the shader leaves " + withThousands(check.undefined) +
-                " more components of its outputs unwritten, hence undefined: they are not compared";
-  }
-  if (!check.compared_at_all) return "outputs not compared: " + check.reason + left_out;
-  if (check.identical()) {
-    return "outputs identical to the uninstrumented draw (" + withThousands(check.compared) + " components)" +
-           left_out;
-  }
-  return "OUTPUTS DIFFER from the uninstrumented draw in " + withThousands(check.differing) + " of " +
-         withThousands(check.compared) + " components: do not trust these values" + left_out;
-}
-
 Json number(double value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
@@ -236,12 +221,6 @@ Json toJson(const instrumenter::Value& value) {
   if (value.words.empty()) return nullptr;
   const std::uint32_t* word = value.words.data();
   return nested(value.type, word);
-}
-
-std::string withThousands(std::uint64_t value) {
-  std::string digits = std::to_string(value);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-  return digits;
 }
 
 }  // namespace shadestep::cli

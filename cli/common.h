@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "session/session.h"
+#include "session/text.h"
 
 namespace shadestep::cli {
 
@@ -58,10 +59,10 @@ std::size_t pixelIndex(session::Session&, const std::string& text);
 
 void print(const Json& document);  // one document on stdout
 Json toJson(const session::Check&);
-std::string describe(const session::Check&);
+using session::describe;                  // of a check
 Json toJson(const instrumenter::Value&);  // exact: shortest digits; NaN and infinities as strings
 Json number(double value);                // NaN and infinities as strings
-std::string withThousands(std::uint64_t value);
+using session::withThousands;
 
 // ---- the commands, a file each --------------------------------------------------------------------------
 void addRun(CLI::App&, Common&, Action&);

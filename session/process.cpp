@@ -48,7 +48,7 @@ std::string ExitStatus::describe() const {
 
 Process Process::launch(const std::vector<std::string>& command,
                         const std::vector<std::pair<std::string, std::string>>& environment,
-                        bool output_to_stderr) {
+                        bool output_to_stderr, const std::string& directory) {
   // Everything that allocates happens before the fork: the child only calls async-signal-safe functions.
   const std::vector<std::string> environment_strings = joinedEnvironment(environment);
   const std::vector<char*> arguments = pointers(command);
@@ -65,7 +65,8 @@ Process Process::launch(const std::vector<std::string>& command,
     throw Error(Outcome::failed, "cannot start another process: " + std::string(strerror(errno)));
   if (process.pid_ == 0) {
     if (output_to_stderr) dup2(STDERR_FILENO, STDOUT_FILENO);
-    execvpe(arguments[0], arguments.data(), variables.data());
+    if (directory.empty() || chdir(directory.c_str()) == 0)
+      execvpe(arguments[0], arguments.data(), variables.data());
     const int error = errno;
     [[maybe_unused]] const ssize_t told = write(failure[1], &error, sizeof error);
     _exit(127);
@@ -77,7 +78,8 @@ Process Process::launch(const std::vector<std::string>& command,
   int error = 0;
   if (read(reading.get(), &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
     process.wait(-1);
-    throw Error(Outcome::usage, "cannot start '" + command.front() + "': " + strerror(error) +
+    const std::string where = directory.empty() ? "" : " in '" + directory + "'";
+    throw Error(Outcome::usage, "cannot start '" + command.front() + "'" + where + ": " + strerror(error) +
                                     "; give the program and its arguments after '--'");
   }
   return process;

@@ -25,10 +25,11 @@ struct ExitStatus {
 class Process {
  public:
   // Starts `command` (found through PATH) with additional environment variables. With `output_to_stderr` its
-  // standard output goes to our standard error. Throws Error{usage} if it cannot be started.
+  // standard output goes to our standard error. It starts in `directory` if one is given. Throws Error{usage}
+  // if it cannot be started.
   static Process launch(const std::vector<std::string>& command,
                         const std::vector<std::pair<std::string, std::string>>& environment,
-                        bool output_to_stderr);
+                        bool output_to_stderr, const std::string& directory = {});
 
   Process(Process&&) = default;
   Process& operator=(Process&&) = default;

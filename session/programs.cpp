@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "session/error.h"
+#include "session/session.h"
 
 namespace shadestep::session {
 namespace {
@@ -19,13 +20,23 @@ wire::Listener makeListener() {
   return std::move(*listener);
 }
 
-std::vector<std::pair<std::string, std::string>> preloadEnvironment(const std::string& interceptor,
+// What the user gives the program, and behind it, hence stronger, what loads the interceptor.
+std::vector<std::pair<std::string, std::string>> preloadEnvironment(const LaunchOptions& options,
+                                                                    const std::string& interceptor,
                                                                     const std::string& socket) {
-  std::string preload = interceptor;
-  if (const char* others = std::getenv("LD_PRELOAD"); others != nullptr && *others != '\0') {
-    preload += std::string(":") + others;
+  const char* const inherited = std::getenv("LD_PRELOAD");
+  std::string others = inherited != nullptr ? inherited : "";
+  std::vector<std::pair<std::string, std::string>> environment;
+  for (const auto& [name, value] : options.environment) {
+    if (name == "LD_PRELOAD") {
+      others = value;
+    } else {
+      environment.emplace_back(name, value);
+    }
   }
-  return {{"LD_PRELOAD", preload}, {wire::kSocketVariable, socket}};
+  environment.emplace_back("LD_PRELOAD", others.empty() ? interceptor : interceptor + ":" + others);
+  environment.emplace_back(wire::kSocketVariable, socket);
+  return environment;
 }
 
 int remainingMs(const Programs::Deadline& deadline) {
@@ -43,12 +54,11 @@ bool sendMessage(wire::Channel& channel, const wire::MessageT& message) {
   return channel.send({builder.GetBufferPointer(), builder.GetSize()});
 }
 
-Programs::Programs(const std::vector<std::string>& command, const std::string& interceptor,
-                   bool output_to_stderr)
+Programs::Programs(const LaunchOptions& options, const std::string& interceptor)
     : listener_(makeListener()),
-      name_(command.front()),
-      process_(
-          Process::launch(command, preloadEnvironment(interceptor, listener_.name()), output_to_stderr)) {}
+      name_(options.command.front()),
+      process_(Process::launch(options.command, preloadEnvironment(options, interceptor, listener_.name()),
+                               options.program_output_to_stderr, options.working_directory)) {}
 
 Programs::~Programs() {
   quit();

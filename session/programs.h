@@ -15,6 +15,8 @@
 
 namespace shadestep::session {
 
+struct LaunchOptions;
+
 struct Peer {
   wire::Channel channel;
   wire::SharedMemory page;  // holds a wire::StatusPage
@@ -40,7 +42,7 @@ class Programs {
  public:
   using Deadline = std::optional<std::chrono::steady_clock::time_point>;
 
-  Programs(const std::vector<std::string>& command, const std::string& interceptor, bool output_to_stderr);
+  Programs(const LaunchOptions&, const std::string& interceptor);
   ~Programs();
 
   // What newly connected processes are told, and what `resumeAll` tells the stopped ones.
@@ -61,6 +63,7 @@ class Programs {
   void quit();
 
   bool isStopped() const { return stopped_ != nullptr; }
+  pid_t processId() const { return process_.pid(); }
   const LastSeen& lastSeen() const { return last_; }
   const std::optional<ExitStatus>& exitStatus() { return process_.wait(0); }
   // Where things stood when all ended, for the user.

@@ -121,6 +121,10 @@ Session::Session(const LaunchOptions& options) {
 
 Session::~Session() = default;
 
+int Session::processId() const {
+  return state_->programs.processId();
+}
+
 DrawStop Session::runTo(std::uint64_t frame, std::uint64_t draw) {
   wire::ResumeT policy;
   policy.stop = true;

@@ -36,7 +36,9 @@ struct LaunchOptions {
   std::vector<std::string> command;       // program and arguments; found through PATH
   std::string interceptor;                // libshadestep-gl.so; empty: beside or above this executable
   bool program_output_to_stderr = false;  // keeps our own stdout clean for --json
-  std::chrono::seconds timeout{0};        // for the program to reach what is asked for; 0 = no limit
+  std::vector<std::pair<std::string, std::string>> environment;  // laid over our own
+  std::string working_directory;                                 // of the program; empty: our own
+  std::chrono::seconds timeout{0};  // for the program to reach what is asked for; 0 = no limit
 };
 
 // The path of libshadestep-gl.so: `given` if it exists, else the one beside or above this executable.
@@ -146,8 +148,8 @@ struct Execution {
   std::shared_ptr<const wire::SharedMemory> memory;
   std::vector<ColorOutput> outputs;  // the program's own
   std::vector<std::uint32_t> storage;
-  // One per repeat (and set, the sets of a repeat in order), of draw + glFinish: on the CPU's clock, and as CPU
-  // time of all threads of the program.
+  // One per repeat (and set, the sets of a repeat in order), of draw + glFinish: on the CPU's clock, and as
+  // CPU time of all threads of the program.
   std::vector<std::chrono::nanoseconds> times, cpu_times;
   Check check;
 };
@@ -212,6 +214,8 @@ class Session {
   void quit();
   // Frames ended and draws begun so far, over the whole run.
   Progress progress();
+  // The process that was launched. May be asked on any thread: a signal to it ends a wait of the others'.
+  int processId() const;
 
   const DrawStop& stop() const;
   const DrawFacts& facts();  // of the current stop; asked once

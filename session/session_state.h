@@ -18,8 +18,7 @@ namespace shadestep::session {
 inline constexpr std::uint64_t kFirstDiscardedRoom = 256;  // threads that end in a discard, at the first try
 
 struct Session::State {
-  State(const LaunchOptions& options, const std::string& interceptor)
-      : programs(options.command, interceptor, options.program_output_to_stderr) {
+  State(const LaunchOptions& options, const std::string& interceptor) : programs(options, interceptor) {
     if (options.timeout.count() > 0) deadline = std::chrono::steady_clock::now() + options.timeout;
   }
 

@@ -43,6 +43,8 @@ class Stepper {
   bool ended() const { return position_.ended(); }
 
   void moveTo(const Position&);
+  // Picks another thread, or none.
+  void pick(std::optional<std::size_t> pixel) { pixel_ = pixel; }
   // Values of variables in scope, of all threads that are at the position. One redraw (more for more watches
   // than one draw holds); none for what was looked at here before.
   ThreadValues look(const std::vector<std::string>& watches);

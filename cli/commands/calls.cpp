@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "cli/common.h"
-#include "cli/gl_names.h"
 
 namespace shadestep::cli {
 namespace {
@@ -41,7 +40,7 @@ Json toJson(const session::LoggedCall& call) {
   json["name"] = call.name;
   json["args"] = std::move(arguments);
   json["result"] = call.result.empty() ? Json(nullptr) : asJson(call.result);
-  json["error"] = call.error == 0 ? Json(nullptr) : Json(errorName(call.error));
+  json["error"] = call.error == 0 ? Json(nullptr) : Json(session::errorName(call.error));
   return json;
 }
 
@@ -56,7 +55,7 @@ void printCall(const session::LoggedCall& call, bool with_thread) {
   }
   std::cout << ")";
   if (!call.result.empty()) std::cout << " = " << call.result;
-  if (call.error != 0) std::cout << "  -> " << errorName(call.error);
+  if (call.error != 0) std::cout << "  -> " << session::errorName(call.error);
   std::cout << "\n";
 }
 

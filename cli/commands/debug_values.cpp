@@ -6,6 +6,7 @@
 #include "profiler/pictures/value_image.h"
 #include "session/hit_values.h"
 #include "session/plan.h"
+#include "session/text.h"
 #include "session/values.h"
 
 namespace shadestep::cli {
@@ -107,32 +108,6 @@ void printText(const ThreadValues& threads, const DebugOptions& options,
   }
 }
 
-std::string asCsv(const ThreadValues& threads) {
-  std::string csv = "x,y";
-  for (const WatchedValues& watched : threads.values) {
-    for (const auto& component : frontend::components(watched.type))
-      csv += "," + watched.name + component.access;
-  }
-  csv += "\n";
-  for (int y = 0; y < threads.height; ++y) {
-    for (int x = 0; x < threads.width; ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(threads.width) + static_cast<std::size_t>(x);
-      if (!threads.reachedAt(pixel)) continue;
-      csv += std::to_string(x) + "," + std::to_string(y);
-      for (const WatchedValues& watched : threads.values) {
-        const std::uint32_t* word = watched.at(pixel);
-        for (const auto& component : frontend::components(watched.type)) {
-          csv += "," + session::formatComponent(component.basic, word);
-          word += session::wordsPerComponent(component.basic);
-        }
-      }
-      csv += "\n";
-    }
-  }
-  return csv;
-}
-
 profiler::ValueImage asImage(const ThreadValues& threads, const WatchedValues& watched) {
   const auto components = frontend::components(watched.type);
   if (components.size() > 4) {
@@ -207,7 +182,7 @@ int debugValues(session::Session& session, const Common& common, const DebugOpti
   if (!options.image.empty()) {
     for (const std::string& file : splitList(options.image)) writeImage(common.inOut(file), threads, options);
   }
-  if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(threads));
+  if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), session::asCsv(threads));
   if (common.json) {
     Json document = asJson(threads, pixel);
     document["fragments"] = toJson(options.fragments);

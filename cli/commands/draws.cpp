@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "cli/common.h"
-#include "cli/gl_names.h"
 
 namespace shadestep::cli {
 namespace {
@@ -57,7 +56,7 @@ Json describeDraw(session::Session& session, const session::DrawStop& stop) {
   Json draw;
   draw["draw"] = stop.draw;
   draw["call"] = stop.call;
-  draw["mode"] = stop.mode == 0xffffffffu ? Json(nullptr) : Json(primitiveModeName(stop.mode));
+  draw["mode"] = stop.mode == 0xffffffffu ? Json(nullptr) : Json(session::primitiveModeName(stop.mode));
   draw["count"] = stop.count < 0 ? Json(nullptr) : Json(stop.count);
   draw["instances"] = stop.instances;
   draw["program"] = facts.program;

@@ -35,6 +35,12 @@ TEST(Process, LaysTheEnvironmentOverOurs) {
   EXPECT_EQ(other.wait(-1)->code, 0);
 }
 
+TEST(Process, StartsInTheDirectoryGiven) {
+  Process process = Process::launch({"sh", "-c", "test \"$(pwd -P)\" = /"}, {}, false, "/");
+  EXPECT_EQ(process.wait(-1)->shellStatus(), 0);
+  EXPECT_THROW(Process::launch({"true"}, {}, false, "/no/such/directory"), Error);
+}
+
 TEST(Process, SaysWhatCannotBeStarted) {
   try {
     Process::launch({"./no such program"}, {}, false);

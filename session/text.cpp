@@ -1,9 +1,32 @@
-#include "cli/gl_names.h"
+#include "session/text.h"
 
 #include <array>
 #include <cstdio>
 
-namespace shadestep::cli {
+#include "session/values.h"
+
+namespace shadestep::session {
+
+std::string describe(const Check& check) {
+  std::string left_out = check.left_out.empty() ? "" : "\nnote: " + check.left_out;
+  if (check.undefined > 0) {
+    left_out += "\nnote: the shader leaves " + withThousands(check.undefined) +
+                " more components of its outputs unwritten, hence undefined: they are not compared";
+  }
+  if (!check.compared_at_all) return "outputs not compared: " + check.reason + left_out;
+  if (check.identical()) {
+    return "outputs identical to the uninstrumented draw (" + withThousands(check.compared) + " components)" +
+           left_out;
+  }
+  return "OUTPUTS DIFFER from the uninstrumented draw in " + withThousands(check.differing) + " of " +
+         withThousands(check.compared) + " components: do not trust these values" + left_out;
+}
+
+std::string withThousands(std::uint64_t value) {
+  std::string digits = std::to_string(value);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
 
 std::string primitiveModeName(std::uint32_t mode) {
   static constexpr std::array<const char*, 15> kNames = {"GL_POINTS",
@@ -43,4 +66,30 @@ std::string errorName(std::uint32_t error) {
   return text;
 }
 
-}  // namespace shadestep::cli
+std::string asCsv(const ThreadValues& threads) {
+  std::string csv = "x,y";
+  for (const WatchedValues& watched : threads.values) {
+    for (const auto& component : frontend::components(watched.type))
+      csv += "," + watched.name + component.access;
+  }
+  csv += "\n";
+  for (int y = 0; y < threads.height; ++y) {
+    for (int x = 0; x < threads.width; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(threads.width) + static_cast<std::size_t>(x);
+      if (!threads.reachedAt(pixel)) continue;
+      csv += std::to_string(x) + "," + std::to_string(y);
+      for (const WatchedValues& watched : threads.values) {
+        const std::uint32_t* word = watched.at(pixel);
+        for (const auto& component : frontend::components(watched.type)) {
+          csv += "," + formatComponent(component.basic, word);
+          word += wordsPerComponent(component.basic);
+        }
+      }
+      csv += "\n";
+    }
+  }
+  return csv;
+}
+
+}  // namespace shadestep::session

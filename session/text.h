@@ -1,0 +1,23 @@
+// What every face says to the user in the same words, and the tables that it writes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "session/thread_values.h"
+
+namespace shadestep::session {
+
+// "outputs identical to the uninstrumented draw (1,024 components)", and below it what the check leaves out.
+std::string describe(const Check&);
+
+std::string withThousands(std::uint64_t value);  // "1,048,576"
+
+// "GL_TRIANGLES"; the number in hexadecimal if it is no primitive mode.
+std::string primitiveModeName(std::uint32_t mode);
+std::string errorName(std::uint32_t error);  // "GL_INVALID_ENUM"
+
+// A header line, then a row for each thread that got to the place: x, y, and the values, a component each.
+std::string asCsv(const ThreadValues&);
+
+}  // namespace shadestep::session
