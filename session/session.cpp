@@ -59,6 +59,7 @@ DrawFacts unpack(const wire::DrawT& draw) {
   facts.max_storage_blocks = draw.max_storage_blocks;
   facts.layers = draw.layers;
   facts.samples = draw.samples;
+  for (const auto& uniform : draw.uniforms) facts.active_uniforms[uniform->name] = uniform->size;
   return facts;
 }
 

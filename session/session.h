@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,6 +78,9 @@ struct DrawFacts {
   int draw_buffers = 1, max_draw_buffers = 8, max_storage_blocks = 0;
   int layers = 0;   // of the draw framebuffer; 0 = not layered
   int samples = 0;  // 0 = not multisampled
+  // Of the program: name, as glGetActiveUniform tells it, and elements. All others were dropped by the
+  // driver, and with them what the program set.
+  std::map<std::string, int> active_uniforms;
 
   bool has(const std::string& extension) const;
 };

@@ -8,6 +8,7 @@
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/guard/guards.h"
+#include "interceptor/replay/uniforms.h"
 
 namespace shadestep::agent {
 namespace {
@@ -216,6 +217,7 @@ wire::DrawT describe(const DrawFacts& facts) {
   draw.max_storage_blocks = context.max_storage_blocks;
   draw.layers = facts.target.layers;
   draw.samples = facts.target.samples;
+  if (facts.program != 0) draw.uniforms = replay::activeUniforms(facts.program);
   return draw;
 }
 

@@ -261,6 +261,23 @@ std::string setUniforms(GLuint program, const std::vector<std::unique_ptr<wire::
   return "";
 }
 
+std::vector<std::unique_ptr<wire::ActiveUniformT>> activeUniforms(GLuint program) {
+  std::vector<std::unique_ptr<wire::ActiveUniformT>> uniforms;
+  GLint count = 0;
+  GLint longest = 0;
+  gl().GetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+  gl().GetProgramiv(program, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+  std::vector<GLchar> buffer(static_cast<std::size_t>(longest) + 1);
+  for (GLint i = 0; i < count; ++i) {
+    ActiveUniform uniform = activeUniform(program, static_cast<GLuint>(i), buffer);
+    auto told = std::make_unique<wire::ActiveUniformT>();
+    told->name = std::move(uniform.name);
+    told->size = uniform.size;
+    uniforms.push_back(std::move(told));
+  }
+  return uniforms;
+}
+
 std::set<GLuint> imageUnits(GLuint program) {
   std::set<GLuint> units;
   GLint count = 0;

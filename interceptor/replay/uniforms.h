@@ -26,6 +26,9 @@ std::string copyUniforms(const guard::ContextFacts&, GLuint original, GLuint cop
 // Returns "" or which value cannot be set.
 std::string setUniforms(GLuint program, const std::vector<std::unique_ptr<wire::UniformValueT>>& values);
 
+// All uniforms of the program that are alive, members of uniform blocks too.
+std::vector<std::unique_ptr<wire::ActiveUniformT>> activeUniforms(GLuint program);
+
 // The image units that the program's image uniforms stand at.
 std::set<GLuint> imageUnits(GLuint program);
 
