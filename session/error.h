@@ -26,6 +26,12 @@ class Error : public std::runtime_error {
   Outcome outcome_;
 };
 
+// Session::interrupt() was called: the program stands at a call, and can be run on.
+class Interrupted : public Error {
+ public:
+  explicit Interrupted(const std::string& sentence) : Error(Outcome::failed, sentence) {}
+};
+
 // The driver does not take a text that the debugger made: a defect of the debugger's, `log` is the driver's
 // own.
 class DriverRefusal : public Error {

@@ -1,11 +1,14 @@
 #include "session/programs.h"
 
 #include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
 
+#include "session/call_journal.h"
 #include "session/error.h"
 #include "session/session.h"
 
@@ -39,6 +42,11 @@ std::vector<std::pair<std::string, std::string>> preloadEnvironment(const Launch
   return environment;
 }
 
+void pause(const Peer& peer) {
+  peer.status().pause.store(true);
+  peer.status().watching.store(true);
+}
+
 int remainingMs(const Programs::Deadline& deadline) {
   if (!deadline) return -1;
   const auto left =
@@ -58,7 +66,8 @@ Programs::Programs(const LaunchOptions& options, const std::string& interceptor)
     : listener_(makeListener()),
       name_(options.command.front()),
       process_(Process::launch(options.command, preloadEnvironment(options, interceptor, listener_.name()),
-                               options.program_output_to_stderr, options.working_directory)) {}
+                               options.program_output_to_stderr, options.working_directory)),
+      interrupts_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
 Programs::~Programs() {
   quit();
@@ -86,11 +95,12 @@ void Programs::greet() {
                                      std::to_string(hello->protocol()) + ", this shadestep " +
                                      std::to_string(wire::kProtocol) + "; use the two of one build");
   }
-  peer->page = wire::SharedMemory::map(std::move(packet.bulk));
-  if (!peer->page || peer->page.size() < sizeof(wire::StatusPage)) return;
+  peer->memory = wire::SharedMemory::map(std::move(packet.bulk));
+  if (!peer->memory || peer->memory.size() < sizeof(wire::AgentMemory)) return;
   peer->pid = hello->pid();
   peer->program = hello->program() != nullptr ? hello->program()->str() : "";
   last_.connected = true;
+  if (pausing_) pause(*peer);
 
   wire::MessageT message;
   message.body.Set(wire::ResumeT(policy_));
@@ -107,17 +117,53 @@ void Programs::noteLast(const Peer& peer) {
   last_.total_draws = page.draws.load();
 }
 
+// The calls that a program that is gone has not sent any more.
+void Programs::tellRest(const Peer& peer) {
+  last_.calls.clear();
+  const CallSink none = [](const wire::CallT&, bool) {};
+  const CallSink& sink = call_sink_ ? call_sink_ : none;
+  for (const auto& batch : unsentBatches(peer.shared().journal, peer.last_batch))
+    readCalls(batch, true, sink);
+  if (peer.orderly) return;
+  for (const auto& call : currentCalls(peer.shared().journal)) {
+    readCalls(call, false, [&](const wire::CallT& one, bool returned) {
+      last_.calls.push_back(one.name);
+      sink(one, returned);
+    });
+  }
+}
+
 void Programs::dropClosed() {
   for (const auto& peer : peers_) {
-    if (!peer->channel.open()) noteLast(*peer);
+    if (peer->channel.open()) continue;
+    noteLast(*peer);
+    tellRest(*peer);
   }
   std::erase_if(peers_, [](const auto& peer) { return !peer->channel.open(); });
+}
+
+void Programs::interrupt() noexcept {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t told = write(interrupts_.get(), &one, sizeof one);
+}
+
+void Programs::pauseAll() {
+  pausing_ = true;
+  for (const auto& peer : peers_) pause(*peer);
+}
+
+void Programs::endPause() {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t drained = read(interrupts_.get(), &count, sizeof count);
+  pausing_ = false;
+  for (const auto& peer : peers_) peer->status().pause.store(false);
 }
 
 std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) {
   while (true) {
     std::vector<pollfd> entries;
     entries.push_back({listener_.descriptor(), POLLIN, 0});
+    entries.push_back({interrupts_.get(), static_cast<short>(pausing_ ? 0 : POLLIN), 0});
     const bool running = !process_.wait(0);
     if (running) entries.push_back({process_.descriptor(), POLLIN, 0});
     const std::size_t first_peer = entries.size();
@@ -132,34 +178,46 @@ std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) 
                                       " draws of it; give more with --timeout");
     }
 
+    if ((entries[1].revents & POLLIN) != 0) pauseAll();
     for (std::size_t i = 0; i < peers_.size() && first_peer + i < entries.size(); ++i) {
       if (entries[first_peer + i].revents == 0) continue;
-      Peer& peer = *peers_[i];
-      wire::Packet packet;
-      if (peer.channel.receive(packet, 0) != wire::Received::message) continue;  // closed: dropped below
-      std::unique_ptr<wire::MessageT> message(wire::UnPackMessage(packet.bytes.data()));
-      if (const wire::CallsT* calls = message->body.AsCalls()) {
-        if (call_sink_) call_sink_(*calls);
-        continue;
-      }
-      if (const wire::ExitingT* exiting = message->body.AsExiting()) {
-        noteLast(peer);
-        last_.orderly = true;
-        last_.frame = exiting->frames;
-        last_.draws = exiting->draws;
-        continue;
-      }
-      if (message->body.AsStopped() != nullptr || message->body.AsFrameEnded() != nullptr) {
-        peer.stopped = true;
-        stopped_ = &peer;
-        noteLast(peer);
-        return message;
-      }
-      peer.channel.close();  // says something out of turn: not our agent
+      if (auto stopped = hear(*peers_[i])) return stopped;
     }
     dropClosed();
     if ((entries[0].revents & POLLIN) != 0) greet();
   }
+}
+
+// Takes what a program says; returns its message if it has stopped.
+std::unique_ptr<wire::MessageT> Programs::hear(Peer& peer) {
+  wire::Packet packet;
+  if (peer.channel.receive(packet, 0) != wire::Received::message) return nullptr;  // closed: dropped soon
+  std::unique_ptr<wire::MessageT> message(wire::UnPackMessage(packet.bytes.data()));
+  if (const wire::CallsT* calls = message->body.AsCalls()) {
+    peer.last_batch = calls->number;
+    if (call_sink_) readCalls(calls->batch, true, call_sink_);
+    return nullptr;
+  }
+  if (const wire::ExitingT* exiting = message->body.AsExiting()) {
+    noteLast(peer);
+    peer.orderly = last_.orderly = true;
+    last_.frame = exiting->frames;
+    last_.draws = exiting->draws;
+    return nullptr;
+  }
+  const wire::CallStoppedT* call = message->body.AsCallStopped();
+  if (call == nullptr && message->body.AsStopped() == nullptr && message->body.AsFrameEnded() == nullptr) {
+    peer.channel.close();  // says something out of turn: not our agent
+    return nullptr;
+  }
+  stopped_ = &peer;
+  peer.stopped = true;
+  noteLast(peer);
+  if (call != nullptr && (call->call == nullptr || (call->reason == wire::CallReason::Paused && !pausing_))) {
+    resumeStopped();  // paused together with another one, at which the run has stopped before
+    return nullptr;
+  }
+  return message;
 }
 
 wire::Packet Programs::request(wire::MessageT& message, const Deadline& deadline) {
@@ -208,8 +266,10 @@ std::string Programs::describeEnd() {
   }
   if (!last_.used_gl)
     return ended + " without using OpenGL; 'shadestep doctor -- " + name_ + "' says what it loads";
-  return ended + " in frame " + std::to_string(last_.frame) + " after " + std::to_string(last_.draws) +
-         (last_.draws == 1 ? " draw of it" : " draws of it");
+  std::string where = " in frame " + std::to_string(last_.frame) + " after " + std::to_string(last_.draws) +
+                      (last_.draws == 1 ? " draw of it" : " draws of it");
+  for (const std::string& call : last_.calls) where += ", in " + call;
+  return ended + where;
 }
 
 }  // namespace shadestep::session

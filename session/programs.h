@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <csignal>
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,12 +20,15 @@ struct LaunchOptions;
 
 struct Peer {
   wire::Channel channel;
-  wire::SharedMemory page;  // holds a wire::StatusPage
+  wire::SharedMemory memory;  // holds a wire::AgentMemory
   pid_t pid = -1;
   std::string program;
   bool stopped = false;
+  bool orderly = false;          // it said Exiting
+  std::uint64_t last_batch = 0;  // number of the last batch of calls that came
 
-  const wire::StatusPage& status() const { return *reinterpret_cast<const wire::StatusPage*>(page.data()); }
+  wire::AgentMemory& shared() const { return *reinterpret_cast<wire::AgentMemory*>(memory.data()); }
+  wire::StatusPage& status() const { return shared().status; }
 };
 
 // Where the programs were at last: kept when a peer goes.
@@ -36,11 +40,14 @@ struct LastSeen {
   std::uint64_t draws = 0;   // in that frame
   std::uint64_t frames = 0;  // ended or, without presenting, drawn to
   std::uint64_t total_draws = 0;
+  std::vector<std::string> calls;  // in which its threads were, as far as calls were watched
 };
 
 class Programs {
  public:
   using Deadline = std::optional<std::chrono::steady_clock::time_point>;
+  // Hears of a call, and whether it has returned.
+  using CallSink = std::function<void(const wire::CallT&, bool returned)>;
 
   Programs(const LaunchOptions&, const std::string& interceptor);
   ~Programs();
@@ -50,11 +57,17 @@ class Programs {
   void resumeStopped();
 
   // Who hears of the calls that the policy's `watch` asks for.
-  void setCallSink(std::function<void(const wire::CallsT&)> sink) { call_sink_ = std::move(sink); }
+  void setCallSink(CallSink sink) { call_sink_ = std::move(sink); }
 
-  // Waits until a process stops (Stopped, FrameEnded), and returns its message; null when all have ended.
-  // Throws Error{ended} at the deadline.
+  // Waits until a process stops (Stopped, CallStopped, FrameEnded), and returns its message; null when all
+  // have ended. Throws Error{ended} at the deadline.
   std::unique_ptr<wire::MessageT> waitForStop(const Deadline&);
+
+  // Thread safe: the programs stop at their next calls, until endPause().
+  void interrupt() noexcept;
+  void endPause();
+  // Thread safe: ends the process that was launched.
+  void kill() noexcept { process_.kill(SIGKILL); }
 
   // Sends a request to the stopped process and waits for its reply. Throws Error{failed} if it died.
   wire::Packet request(wire::MessageT& message, const Deadline&);
@@ -71,7 +84,10 @@ class Programs {
 
  private:
   void greet();
+  std::unique_ptr<wire::MessageT> hear(Peer&);
+  void pauseAll();
   void noteLast(const Peer&);
+  void tellRest(const Peer&);
   void dropClosed();
 
   wire::Listener listener_;
@@ -80,7 +96,9 @@ class Programs {
   std::vector<std::unique_ptr<Peer>> peers_;
   Peer* stopped_ = nullptr;
   wire::ResumeT policy_;
-  std::function<void(const wire::CallsT&)> call_sink_;
+  CallSink call_sink_;
+  wire::Descriptor interrupts_;  // an eventfd
+  bool pausing_ = false;
   LastSeen last_;
 };
 

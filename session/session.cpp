@@ -131,11 +131,8 @@ DrawStop Session::runTo(std::uint64_t frame, std::uint64_t draw) {
   policy.stop = true;
   policy.frame = frame;
   policy.draw = draw;
-  state_->leaveStop();
-  state_->programs.setPolicy(policy);
-  state_->programs.resumeStopped();
-
-  const auto message = state_->programs.waitForStop(state_->deadline);
+  const RunEnd at_end(state_->programs);
+  const auto message = state_->run(policy);
   if (message == nullptr) {
     const LastSeen& last = state_->programs.lastSeen();
     if (last.used_gl && last.orderly && last.frame == frame) {
@@ -151,14 +148,12 @@ DrawStop Session::runTo(std::uint64_t frame, std::uint64_t draw) {
                                               std::to_string(ended->frame) + ", which " +
                                               ordinalDraws(ended->draws));
   }
-  const wire::StoppedT* stopped = message->body.AsStopped();
-  state_->stop = DrawStop{stopped->frame, stopped->draw,  stopped->call,
-                          stopped->mode,  stopped->count, stopped->instances};
-  return *state_->stop;
+  return state_->enter(*message->body.AsStopped());
 }
 
 std::vector<std::uint64_t> Session::forEachDraw(std::uint64_t first, std::uint64_t last,
                                                 const std::function<void(const DrawStop&)>& visit) {
+  const RunEnd at_end(state_->programs);
   std::vector<std::uint64_t> draws_per_frame;
   wire::ResumeT policy;
   policy.stop = true;
@@ -168,10 +163,7 @@ std::vector<std::uint64_t> Session::forEachDraw(std::uint64_t first, std::uint64
   std::uint64_t frame = first;
   std::uint64_t draws = 0;
   while (frame <= last) {
-    state_->leaveStop();
-    state_->programs.setPolicy(policy);
-    state_->programs.resumeStopped();
-    const auto message = state_->programs.waitForStop(state_->deadline);
+    const auto message = state_->run(policy);
     if (message == nullptr) break;
     if (const wire::FrameEndedT* ended = message->body.AsFrameEnded()) {
       if (ended->frame < first) continue;
@@ -180,13 +172,11 @@ std::vector<std::uint64_t> Session::forEachDraw(std::uint64_t first, std::uint64
       policy.draw = draws = 0;
       continue;
     }
-    const wire::StoppedT* stopped = message->body.AsStopped();
-    state_->stop = DrawStop{stopped->frame, stopped->draw,  stopped->call,
-                            stopped->mode,  stopped->count, stopped->instances};
-    if (stopped->frame > last) break;
-    visit(*state_->stop);
-    frame = stopped->frame;
-    draws = stopped->draw + 1;
+    const DrawStop stop = state_->enter(*message->body.AsStopped());
+    if (stop.frame > last) break;
+    visit(stop);
+    frame = stop.frame;
+    draws = stop.draw + 1;
     policy.frame = frame;
     policy.draw = draws;
   }
@@ -203,11 +193,15 @@ std::vector<std::uint64_t> Session::forEachDraw(std::uint64_t first, std::uint64
   return draws_per_frame;
 }
 
+DrawStop Session::State::enter(const wire::StoppedT& stopped) {
+  stop = DrawStop{stopped.frame, stopped.draw, stopped.call, stopped.mode, stopped.count, stopped.instances};
+  return *stop;
+}
+
 int Session::runToEnd() {
-  state_->leaveStop();
-  state_->programs.setPolicy(wire::ResumeT{});
-  state_->programs.resumeStopped();
-  while (state_->programs.waitForStop(state_->deadline) != nullptr) state_->programs.resumeStopped();
+  const RunEnd at_end(state_->programs);
+  while (state_->run(wire::ResumeT{}) != nullptr) {
+  }
   const auto& status = state_->programs.exitStatus();
   return status ? status->shellStatus() : 0;
 }

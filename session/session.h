@@ -2,7 +2,7 @@
 // The debugger without a face: the command line and the window hold no debugging logic beyond this.
 //
 // Every function throws session::Error when it cannot do what it says; the program under debug is then still
-// as it was. Not thread safe: one thread drives one Session.
+// as it was. Not thread safe: one thread drives one Session; others may call interrupt() and kill() only.
 #pragma once
 
 #include <chrono>
@@ -18,6 +18,7 @@
 
 #include "glsl-frontend/shader.h"
 #include "instrumenter/instrumenter.h"
+#include "session/calls.h"
 #include "session/error.h"
 #include "session/fragment_choice.h"
 
@@ -174,21 +175,12 @@ struct Captured {
   Execution execution;  // its attachments are moved into `threads`
 };
 
-// A call that the program made.
-struct LoggedCall {
-  std::uint64_t frame = 0;
-  std::uint64_t index = 0;  // in its frame, among all calls
-  int thread = 0;
-  std::string name;
-  std::vector<std::pair<std::string, std::string>>
-      arguments;            // name, value: 7, GL_TRIANGLES, {1, 2}, "text", 0x55d0
-  std::string result;       // empty if the call returns nothing
-  std::uint32_t error = 0;  // what glGetError said after it; 0 = nothing
-};
-struct CallFilter {
-  std::uint64_t first_frame = 0, last_frame = 0;
-  std::vector<std::string> names;  // patterns (*, ?, [...]); none = all
-  bool errors_only = false;        // only calls that the driver answered with an error
+// Why and where runUntil stopped.
+struct Stop {
+  StopReason reason = StopReason::ended;
+  std::optional<CallStop> call;  // for all reasons but draw and ended
+  std::optional<DrawStop> draw;  // for draw
+  std::string end;               // for ended: how the program ended, and where
 };
 
 struct Progress {
@@ -211,7 +203,33 @@ class Session {
                                          const std::function<void(const DrawStop&)>& visit);
   // Visits the GL, GLX, EGL and OSMesa calls of the frames, and runs to the end of the last one, or of the
   // program. Throws ended if the program stops before the first of these frames.
-  void forEachCall(const CallFilter&, const std::function<void(const LoggedCall&)>& visit);
+  void forEachCall(const CallFilter&, const CallVisitor& visit);
+
+  // ---- stopping at calls ----
+  // Runs on until one of the conditions holds, interrupt() was called, or the program ended. Blocks
+  // meanwhile; the visitor of tellCalls is called from within. At a draw everything below works; at a call
+  // only setArgument, skipCall, and running on.
+  Stop runUntil(const StopCondition&);
+  // From now on runUntil tells of these calls, in batches: all of them before it returns. No visitor: of
+  // none.
+  void tellCalls(const CallFilter&, CallVisitor visit);
+  // Changes an argument of the call at which the program stands, for this one time; returns how the call
+  // shows it now. The value is spelt as LoggedCall shows it: 7, 0.5, GL_LINES, GL_COLOR_BUFFER_BIT | 0x100,
+  // GL_TRUE, "text", {1, 0, 0, 1} (as many elements as there are), NULL or 0x... for other pointers. Throws
+  // nothing_matches if there is no such argument or it does not fit; failed where the program does not stand
+  // before a call.
+  std::string setArgument(const std::string& name, const std::string& value);
+  // The call at which the program stands will not be made; the program is told 0. Throws as setArgument.
+  void skipCall();
+  // The call at which the program stands; null where it does not.
+  const CallStop* callStop() const;
+  // Thread safe. Stops the program at its next call: runUntil returns `interrupted`; runTo, forEachDraw,
+  // forEachCall and runToEnd throw Interrupted. Asked for while nothing runs, it holds for the next run. A
+  // program that makes no calls does not stop: kill() is what then helps.
+  void interrupt() noexcept;
+  // Thread safe. Ends the program under debug at once; what runs sees it end.
+  void kill() noexcept;
+
   // Runs on to the program's own end, returns its exit status as a shell gives it (128 + signal).
   int runToEnd();
   // Ends the program now.

@@ -25,6 +25,9 @@ struct Session::State {
   Programs programs;
   Programs::Deadline deadline;
   std::optional<DrawStop> stop;
+  std::optional<CallStop> call;
+  wire::WatchT watch;  // with `visit_call`: what runUntil tells of
+  CallVisitor visit_call;
   std::optional<DrawFacts> facts;
   std::map<Stage, frontend::Shader> shaders;
   std::optional<UndefinedOutputs> undefined;
@@ -33,20 +36,32 @@ struct Session::State {
 
   void leaveStop() {
     stop.reset();
+    call.reset();
     facts.reset();
     shaders.clear();
     undefined.reset();
     discarded_room = kFirstDiscardedRoom;
   }
 
-  wire::Packet request(wire::MessageT& message) { return programs.request(message, deadline); }
+  // Runs on under the policy until the program stops; null: it has ended.
+  std::unique_ptr<wire::MessageT> resume(const wire::ResumeT& policy);
+  // The same; throws Interrupted where it stops for that.
+  std::unique_ptr<wire::MessageT> run(const wire::ResumeT& policy);
+  void requireBeforeCall() const;
+  // At a draw.
+  DrawStop enter(const wire::StoppedT&);
 
   template <class Reply, class Request>
   std::pair<Reply, wire::Descriptor> ask(Request&& request_body) {
     if (!stop) throw Error(Outcome::failed, "select a draw first");
+    return askAnywhere<Reply>(std::forward<Request>(request_body));
+  }
+
+  template <class Reply, class Request>
+  std::pair<Reply, wire::Descriptor> askAnywhere(Request&& request_body) {
     wire::MessageT message;
     message.body.Set(std::forward<Request>(request_body));
-    wire::Packet packet = request(message);
+    wire::Packet packet = programs.request(message, deadline);
     std::unique_ptr<wire::MessageT> reply(wire::UnPackMessage(packet.bytes.data()));
     if (const wire::FailedT* failed = reply->body.AsFailed()) raise(*failed);
     if (reply->body.type != wire::BodyTraits<typename Reply::TableType>::enum_value) {
@@ -54,6 +69,18 @@ struct Session::State {
     }
     return {std::move(*static_cast<Reply*>(reply->body.value)), std::move(packet.bulk)};
   }
+};
+
+// An interrupt that was asked for during a run does not outlast it.
+class RunEnd {
+ public:
+  explicit RunEnd(Programs& programs) : programs_(programs) {}
+  ~RunEnd() { programs_.endPause(); }
+  RunEnd(const RunEnd&) = delete;
+  RunEnd& operator=(const RunEnd&) = delete;
+
+ private:
+  Programs& programs_;
 };
 
 }  // namespace shadestep::session

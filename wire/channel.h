@@ -11,8 +11,8 @@
 
 namespace shadestep::wire {
 
-// Raised when the schema or StatusPage change their meaning; Hello carries it.
-inline constexpr std::uint32_t kProtocol = 2;
+// Raised when the schema or AgentMemory change their meaning; Hello carries it.
+inline constexpr std::uint32_t kProtocol = 3;
 
 // Environment variable by which the session tells the agent the (abstract) socket name.
 inline constexpr const char* kSocketVariable = "SHADESTEP_SOCKET";

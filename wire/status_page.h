@@ -2,19 +2,57 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 namespace shadestep::wire {
 
-// One page in a memfd made by the agent, mapped by both sides. Written by the agent only, without locks.
-struct StatusPage {
+// A memory page of the largest size that there is, so that one address of the agent's can be mapped anew.
+inline constexpr std::size_t kPageBytes = 65536;
+
+// The first page of the memfd that the agent sends with Hello, mapped by both sides, without locks. Written
+// by the agent, but for `pause` and `watching`.
+struct alignas(kPageBytes) StatusPage {
   std::atomic<std::uint64_t> frame;    // frames ended so far (0-based number of the current frame)
   std::atomic<std::uint64_t> draw;     // draws begun in the current frame
   std::atomic<std::uint64_t> draws;    // draws begun in total
   std::atomic<std::uint32_t> used_gl;  // 1 once any context was made current
-  std::uint32_t reserved = 0;
+  // The session asks the program to stop at its next call: it sets `pause`, then `watching`. The agent clears
+  // `pause` where it stops.
+  std::atomic<bool> pause;
+  std::atomic<bool> watching;  // whether calls are looked at; else a call costs a load and a branch
 };
-static_assert(sizeof(StatusPage) == 32, "the layout is part of the protocol: raise kProtocol in channel.h");
-static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+static_assert(sizeof(StatusPage) == kPageBytes, "the layout is part of the protocol: raise kProtocol");
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+// Behind it: the calls that the agent was to tell of and has not sent yet.
+struct CallJournal {
+  static constexpr std::size_t kBatchBytes = 128 * 1024;
+  static constexpr std::size_t kCallBytes = 4096;
+  static constexpr std::size_t kThreads = 32;
+
+  // Calls that have returned: size-prefixed buffers of wire::Call, one behind the other, of which the first
+  // `used` bytes are valid. One batch is filled while the other is sent; sent, it is empty again, and has a
+  // higher number where it is filled next.
+  struct Batch {
+    std::atomic<std::uint64_t> number;
+    std::atomic<std::uint64_t> used;
+    std::byte bytes[kBatchBytes - 2 * sizeof(std::uint64_t)];
+  };
+  // The call that a thread is in: a size-prefixed wire::Call of `used` bytes; 0 = none.
+  struct Current {
+    std::atomic<std::uint64_t> taken;  // by a thread
+    std::atomic<std::uint64_t> used;
+    std::byte bytes[kCallBytes - 2 * sizeof(std::uint64_t)];
+  };
+
+  Batch batches[2];
+  Current current[kThreads];
+};
+
+struct AgentMemory {
+  StatusPage status;
+  CallJournal journal;
+};
 
 }  // namespace shadestep::wire

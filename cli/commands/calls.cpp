@@ -41,6 +41,7 @@ Json toJson(const session::LoggedCall& call) {
   json["args"] = std::move(arguments);
   json["result"] = call.result.empty() ? Json(nullptr) : asJson(call.result);
   json["error"] = call.error == 0 ? Json(nullptr) : Json(session::errorName(call.error));
+  if (!call.returned) json["returned"] = false;
   return json;
 }
 
@@ -56,6 +57,7 @@ void printCall(const session::LoggedCall& call, bool with_thread) {
   std::cout << ")";
   if (!call.result.empty()) std::cout << " = " << call.result;
   if (call.error != 0) std::cout << "  -> " << session::errorName(call.error);
+  if (!call.returned) std::cout << "  -> did not return";
   std::cout << "\n";
 }
 

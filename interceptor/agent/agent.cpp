@@ -3,17 +3,20 @@
 // asked for nothing, a draw costs two counters and a comparison. Whatever happens to the connection, the
 // program runs on.
 #include <pthread.h>
+#include <sys/mman.h>
 #include <sys/types.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <climits>
 #include <cstdlib>
+#include <cstring>
 #include <mutex>
 #include <string>
 
-#include "interceptor/agent/call_log.h"
+#include "interceptor/agent/call_journal.h"
 #include "interceptor/agent/stop.h"
+#include "interceptor/agent/watched_calls.h"
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
 #include "interceptor/calls/watch.h"
@@ -27,9 +30,8 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 
-// Counts also without a session, and in a forked child, which must not write to its parent's page.
-constinit wire::StatusPage own_page{};
-constinit std::atomic<wire::StatusPage*> page{&own_page};
+// Counts also without a session.
+using calls::status;
 
 constinit std::atomic<bool> connected{false};
 
@@ -44,7 +46,7 @@ constinit std::atomic<std::uint64_t> stop_draw{0};
 struct Connection {
   std::mutex mutex;
   wire::Channel channel;
-  wire::SharedMemory page_memory;
+  wire::SharedMemory memory;
 };
 Connection& connection() {
   static auto* one = new Connection;
@@ -74,13 +76,14 @@ void obey(const wire::ResumeT& resume) {
   stop_draw.store(resume.draw, kRelaxed);
   report_frames.store(resume.report_frames, kRelaxed);
   armed.store(resume.stop, kRelaxed);
-  watchCalls(resume.watch.get());
+  watchCalls(resume.watch.get(), resume.break_at.get());
 }
 
 void letGo(wire::Channel& channel) {
   connected.store(false, kRelaxed);
   armed.store(false, kRelaxed);
-  watchCalls(nullptr);
+  status.pause.store(false, kRelaxed);
+  watchCalls(nullptr, nullptr);
   channel.close();
 }
 
@@ -131,26 +134,52 @@ void stopAtFrameEnd(std::uint64_t frame, std::uint64_t draws) {
   serve(session.channel, notAtADraw);
 }
 
+// The memory's first page becomes the page of `status`, with what that counted so far.
+bool shareStatus(const wire::SharedMemory& memory) {
+  auto* shared = new (memory.data()) wire::StatusPage{};
+  shared->frame.store(status.frame.load());
+  shared->draw.store(status.draw.load());
+  shared->draws.store(status.draws.load());
+  shared->used_gl.store(status.used_gl.load());
+  return mmap(&status, wire::kPageBytes, PROT_READ | PROT_WRITE, MAP_FIXED | MAP_SHARED, memory.descriptor(),
+              0) != MAP_FAILED;
+}
+
 std::string programPath() {
   char path[PATH_MAX];
   const ssize_t length = readlink("/proc/self/exe", path, sizeof path);
   return length > 0 ? std::string(path, static_cast<std::size_t>(length)) : std::string();
 }
 
-// A forked child has its parent's socket and page: it leaves both alone.
+// A forked child has its parent's socket and memory: it leaves both alone, and takes no lock, which a thread
+// that is not here may hold.
 void inForkedChild() {
   armed.store(false, kRelaxed);
-  calls::watching.store(false, kRelaxed);  // no lock: a thread that is not here may hold it
-  const wire::StatusPage* parents = page.load(kRelaxed);
-  own_page.frame.store(parents->frame.load(kRelaxed), kRelaxed);
-  own_page.draw.store(parents->draw.load(kRelaxed), kRelaxed);
-  own_page.draws.store(parents->draws.load(kRelaxed), kRelaxed);
-  page.store(&own_page, kRelaxed);
-  connection().channel.close();
   connected.store(false, kRelaxed);
+  useJournal(nullptr);
+  const std::uint64_t frame = status.frame.load(), draw = status.draw.load(), draws = status.draws.load();
+  const std::uint32_t used_gl = status.used_gl.load();
+  mmap(&status, wire::kPageBytes, PROT_READ | PROT_WRITE, MAP_FIXED | MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  status.frame.store(frame, kRelaxed);
+  status.draw.store(draw, kRelaxed);
+  status.draws.store(draws, kRelaxed);
+  status.used_gl.store(used_gl, kRelaxed);
+  connection().channel.close();
 }
 
 }  // namespace
+
+void stopAtCall(CallStop& stop, std::optional<wire::CallReason> (*reason)(const CallStop&)) {
+  sendCalls();
+  Connection& session = connection();
+  const std::lock_guard lock(session.mutex);
+  const auto why = reason(stop);
+  if (!why || !session.channel.open()) return;
+  status.pause.store(false, kRelaxed);
+  if (!sendBody(session.channel, stop.announcement(*why, status.draw.load(kRelaxed))))
+    return letGo(session.channel);
+  serve(session.channel, [&](const wire::MessageT& request) { return stop.answer(request); });
+}
 
 void sendToSession(wire::CallsT&& calls, bool wait) {
   Connection& session = connection();
@@ -163,18 +192,15 @@ void sendToSession(wire::CallsT&& calls, bool wait) {
   if (session.channel.open() && !sendBody(session.channel, std::move(calls))) letGo(session.channel);
 }
 
-std::uint64_t currentFrame() {
-  return page.load(kRelaxed)->frame.load(kRelaxed);
-}
-
 void onLoad() {
   const char* socket = std::getenv(wire::kSocketVariable);
   if (socket == nullptr || *socket == '\0') return;
   Connection& session = connection();
-  session.page_memory = wire::SharedMemory::create("shadestep-status", sizeof(wire::StatusPage));
+  session.memory = wire::SharedMemory::create("shadestep-status", sizeof(wire::AgentMemory));
   session.channel = wire::Channel::connect(socket);
-  if (!session.page_memory || !session.channel.open()) return session.channel.close();
-  page.store(new (session.page_memory.data()) wire::StatusPage{}, kRelaxed);
+  if (!session.memory || !session.channel.open() || !shareStatus(session.memory))
+    return session.channel.close();
+  useJournal(&reinterpret_cast<wire::AgentMemory*>(session.memory.data())->journal);
   connected.store(true, kRelaxed);
   pthread_atfork(nullptr, nullptr, inForkedChild);
 
@@ -184,7 +210,7 @@ void onLoad() {
   hello.program = programPath();
   wire::MessageT message;
   message.body.Set(std::move(hello));
-  if (!send(session.channel, message, session.page_memory.descriptor())) return letGo(session.channel);
+  if (!send(session.channel, message, session.memory.descriptor())) return letGo(session.channel);
   serve(session.channel, notAtADraw);
 }
 
@@ -196,7 +222,6 @@ void onExit() {
   const std::unique_lock lock(session.mutex, std::try_to_lock);
   if (!lock.owns_lock() || !session.channel.open()) return;
   armed.store(false, kRelaxed);
-  const wire::StatusPage& status = *page.load(kRelaxed);
   wire::ExitingT exiting;
   exiting.frames = status.frame.load(kRelaxed);
   exiting.draws = status.draw.load(kRelaxed);
@@ -210,7 +235,6 @@ namespace shadestep::calls {
 
 void onDraw(const DrawCall& call) {
   if (compilesOnly()) return;
-  wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
   const std::uint64_t draw = status.draw.fetch_add(1, agent::kRelaxed);
   status.draws.fetch_add(1, agent::kRelaxed);
   if (!agent::armed.load(agent::kRelaxed)) return;
@@ -220,13 +244,11 @@ void onDraw(const DrawCall& call) {
 
 bool stopsAtNextDraw() {
   if (!agent::armed.load(agent::kRelaxed)) return false;
-  const wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
   return agent::reached(status.frame.load(agent::kRelaxed), status.draw.load(agent::kRelaxed));
 }
 
 void onPresent() {
   agent::endFrameOfCalls();
-  wire::StatusPage& status = *agent::page.load(agent::kRelaxed);
   const std::uint64_t draws = status.draw.exchange(0, agent::kRelaxed);
   const std::uint64_t frame = status.frame.fetch_add(1, agent::kRelaxed);
   if (!agent::armed.load(agent::kRelaxed)) return;
@@ -236,8 +258,7 @@ void onPresent() {
 }
 
 void onContextCurrent() {
-  if (dispatch::currentContext() != nullptr)
-    agent::page.load(agent::kRelaxed)->used_gl.store(1, agent::kRelaxed);
+  if (dispatch::currentContext() != nullptr) status.used_gl.store(1, agent::kRelaxed);
 }
 
 void onContextGone(const dispatch::Context& context) {

@@ -19,20 +19,6 @@ using guard::OrRefusal;
 using guard::Refusal;
 
 template <class Body>
-Reply success(Body&& body) {
-  Reply reply;
-  reply.message.body.Set(std::forward<Body>(body));
-  return reply;
-}
-
-Reply failed(const Refusal& refusal) {
-  wire::FailedT failure;
-  failure.kind = refusal.kind;
-  failure.text = refusal.text;
-  return success(std::move(failure));
-}
-
-template <class Body>
 Reply replied(OrRefusal<Body>&& result) {
   if (const auto* refusal = std::get_if<Refusal>(&result)) return failed(*refusal);
   return success(std::get<Body>(std::move(result)));

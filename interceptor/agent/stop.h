@@ -10,6 +10,7 @@
 
 #include "interceptor/agent/check.h"
 #include "interceptor/agent/describe.h"
+#include "interceptor/agent/reply.h"
 #include "interceptor/capture/covering.h"
 #include "interceptor/capture/shadow.h"
 #include "interceptor/capture/storage.h"
@@ -23,11 +24,6 @@
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
-
-struct Reply {
-  wire::MessageT message;
-  wire::SharedMemory bulk;  // empty: none
-};
 
 class Stop {
  public:

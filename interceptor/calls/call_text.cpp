@@ -113,30 +113,6 @@ std::string quoted(const char* memory, std::int64_t most) {
   return text.size() > kMostCharacters ? result + "... (" + decimal(text.size()) + " characters)" : result;
 }
 
-std::size_t bytes(Element element) {
-  switch (element) {
-    case Element::int8:
-    case Element::uint8:
-    case Element::boolean:
-    case Element::text:
-      return 1;
-    case Element::int16:
-    case Element::uint16:
-      return 2;
-    case Element::int32:
-    case Element::uint32:
-    case Element::float32:
-    case Element::enumerant:
-    case Element::bitmask:
-    case Element::hexadecimal:
-      return 4;
-    case Element::nothing:
-      return 0;
-    default:
-      return 8;
-  }
-}
-
 std::string scalar(Element element, unsigned group, std::uint64_t word) {
   switch (element) {
     case Element::int8:
@@ -177,15 +153,6 @@ std::string scalar(Element element, unsigned group, std::uint64_t word) {
   return word == 0 ? "NULL" : hexadecimal(word);
 }
 
-std::int64_t countOf(const CallDescription& call, const Length& length, const std::uint64_t* words) {
-  if (length.factor == 0) return -1;
-  if (length.parameter < 0) return length.factor;
-  const ValueKind& kind = call.parameters[length.parameter];
-  const std::uint64_t word = words[length.parameter];
-  const std::int64_t count = bytes(kind.element) == 8 ? as<std::int64_t>(word) : as<std::int32_t>(word);
-  return std::clamp<std::int64_t>(count, 0, 1 << 20) * length.factor;
-}
-
 std::string list(std::int64_t count, bool more, auto element) {
   const std::int64_t shown = std::min(count, kMostElements);
   std::string text = "{";
@@ -196,7 +163,7 @@ std::string list(std::int64_t count, bool more, auto element) {
 
 // `count` < 0: how many there are depends on another argument's meaning; the first is shown.
 std::string array(const ValueKind& kind, const void* memory, std::int64_t count) {
-  const std::size_t size = bytes(kind.element);
+  const std::size_t size = elementBytes(kind.element);
   const std::int64_t known = count < 0 ? 1 : count;
   char copy[kMostElements * 8];
   const std::size_t shown = static_cast<std::size_t>(std::min(known, kMostElements)) * size;
@@ -218,12 +185,47 @@ std::string textArray(const void* memory, std::int64_t count) {
 
 }  // namespace
 
+std::size_t elementBytes(Element element) {
+  switch (element) {
+    case Element::int8:
+    case Element::uint8:
+    case Element::boolean:
+    case Element::text:
+      return 1;
+    case Element::int16:
+    case Element::uint16:
+      return 2;
+    case Element::int32:
+    case Element::uint32:
+    case Element::float32:
+    case Element::enumerant:
+    case Element::bitmask:
+    case Element::hexadecimal:
+      return 4;
+    case Element::nothing:
+      return 0;
+    default:
+      return 8;
+  }
+}
+
+std::int64_t elementCount(const CallDescription& call, const ValueKind& array, const std::uint64_t* words) {
+  const Length& length = array.length;
+  if (length.factor == 0) return -1;
+  if (length.parameter < 0) return length.factor;
+  const ValueKind& kind = call.parameters[length.parameter];
+  const std::uint64_t word = words[length.parameter];
+  const std::int64_t count =
+      elementBytes(kind.element) == 8 ? as<std::int64_t>(word) : as<std::int32_t>(word);
+  return std::clamp<std::int64_t>(count, 0, 1 << 20) * length.factor;
+}
+
 std::string valueText(const CallDescription& call, const ValueKind& kind, std::uint64_t word,
                       const std::uint64_t* words, bool written) {
   if (kind.pointers == 0) return scalar(kind.element, kind.group, word);
   const void* memory = as<const void*>(word);
   if (memory == nullptr) return "NULL";
-  const std::int64_t count = countOf(call, kind.length, words);
+  const std::int64_t count = elementCount(call, kind, words);
   if (!kind.constant && !written) return hexadecimal(word);
   const bool known = kind.element != Element::text || count >= 0 || kind.constant;
   if (kind.element == Element::text && kind.pointers == 1 && known)

@@ -2,6 +2,7 @@
 // Runs inside the program under debug: throws nothing, starts no thread, calls no GL.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -16,6 +17,7 @@ struct EnumerantNames {  // sorted by value
   unsigned count;
 };
 extern const EnumerantNames kEnumerantGroups[];  // [0]: all enumerants above 1
+extern const unsigned kEnumerantGroupCount;
 
 enum class Element : std::uint8_t {
   nothing,
@@ -64,6 +66,11 @@ extern const CallDescription kGlCalls[];  // by the index in the API's table
 extern const CallDescription kGlxCalls[];
 extern const CallDescription kEglCalls[];
 extern const CallDescription kOsmesaCalls[];
+
+std::size_t elementBytes(Element);
+
+// How many elements the array has that a parameter points to; -1: not known.
+std::int64_t elementCount(const CallDescription&, const ValueKind&, const std::uint64_t* words);
 
 // A value as an expression would spell it: 7, 0.5, GL_TRIANGLES, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
 // "text", {1, 2, 3}, 0x55d0. `words` are all arguments of the call, each in 64 bits. Reads the memory that

@@ -2,7 +2,7 @@
 
 namespace shadestep::calls {
 
-constinit std::atomic<bool> watching{false};
+constinit wire::StatusPage status{};
 constinit thread_local bool insideWatched = false;
 
 }  // namespace shadestep::calls

@@ -4,35 +4,40 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "interceptor/calls/call_text.h"
 #include "interceptor/dispatch/driver_scope.h"
+#include "wire/status_page.h"
 
 namespace shadestep::calls {
 
-extern constinit std::atomic<bool> watching;
+// Where the program is. The agent lays the memory that it shares with the session over this page, so that the
+// session can switch watching on.
+extern constinit wire::StatusPage status;
 // This thread is in a watched call: what is called from there (by the call's own wrapper, by a callback) is
 // part of it.
 extern constinit thread_local bool insideWatched;
 
 inline bool isWatching() {
-  return watching.load(std::memory_order_relaxed);
+  return status.watching.load(std::memory_order_relaxed);
 }
 inline bool watchesHere() {
   return !insideWatched && dispatch::driverDepth == 0;
 }
 
-// One call of the program, with its arguments in 64 bits each.
+// One call of the program, with its arguments in 64 bits each; beginCall may change them.
 struct WatchedCall {
   const CallDescription& description;
-  const std::uint64_t* words;
+  std::uint64_t* words;
 };
-// The hooks of a call; implemented by the agent.
-void beginCall(const WatchedCall&);
-void endCall(const WatchedCall&, std::uint64_t result);
+// The hooks of a call; implemented by the agent. False: the call is not to be made; endCall is told then too.
+bool beginCall(const WatchedCall&);
+void endCall(const WatchedCall&, std::uint64_t result, bool made);
 
 template <class Value>
 std::uint64_t asWord(Value value) {
@@ -41,22 +46,36 @@ std::uint64_t asWord(Value value) {
   std::memcpy(&word, &value, sizeof value);
   return word;
 }
+template <class Value>
+Value fromWord(std::uint64_t word) {
+  Value value;
+  std::memcpy(&value, &word, sizeof value);
+  return value;
+}
+
+template <class Result, class... Parameters, std::size_t... index>
+Result callWith(Result (*function)(Parameters...), [[maybe_unused]] const std::uint64_t* words,
+                std::index_sequence<index...>) {
+  return function(fromWord<Parameters>(words[index])...);
+}
 
 // `self` is the wrapper, which makes the call as ever.
 template <class Result, class... Parameters>
 [[gnu::noinline]] Result watched(const CallDescription& description, Result (*self)(Parameters...),
                                  std::type_identity_t<Parameters>... arguments) {
-  const std::uint64_t words[sizeof...(Parameters) + 1] = {asWord(arguments)...};
+  std::uint64_t words[sizeof...(Parameters) + 1] = {asWord(arguments)...};
   const WatchedCall call{description, words};
+  constexpr std::index_sequence_for<Parameters...> kAll;
   insideWatched = true;
-  beginCall(call);
+  const bool make = beginCall(call);
   if constexpr (std::is_void_v<Result>) {
-    self(arguments...);
-    endCall(call, 0);
+    if (make) callWith(self, words, kAll);
+    endCall(call, 0, make);
     insideWatched = false;
   } else {
-    const Result result = self(arguments...);
-    endCall(call, asWord(result));
+    Result result{};
+    if (make) result = callWith(self, words, kAll);
+    endCall(call, asWord(result), make);
     insideWatched = false;
     return result;
   }
