@@ -1,52 +1,83 @@
 #include "plan.h"
 
+#include <algorithm>
 #include <map>
 
 namespace raycaster {
 namespace {
 
-class Search {
+// Trials are dear: each is made once.
+class Trials {
  public:
-  Search(const std::vector<Knob>& knobs, double budget, const Pilot& pilot)
-      : knobs_(knobs), budget_(budget), pilot_(pilot), at_(knobs.size(), 0) {}
-
-  Plan run() {
-    Plan plan;
-    plan.kept = keeps(at_, 1);
-    if (plan.kept) {
-      for (std::size_t knob = 0; knob < knobs_.size(); ++knob) turn(knob);
-      while (turnAnyFurther()) {
-      }
-    }
-    plan.settings = at_;
-    plan.trial = trial(at_);
-    for (std::size_t knob = 0; knob < knobs_.size(); ++knob) plan.choices.push_back(choice(knob));
-    plan.trials = static_cast<int>(known_.size());
-    return plan;
-  }
-
- private:
-  const Trial& trial(const std::vector<std::size_t>& settings) {
+  explicit Trials(const Pilot& pilot) : pilot_(pilot) {}
+  const Trial& operator()(const Settings& settings) {
     const auto found = known_.find(settings);
     return found != known_.end() ? found->second : known_.emplace(settings, pilot_(settings)).first->second;
   }
-  bool keeps(const std::vector<std::size_t>& settings, double share) {
-    return trial(settings).bound <= share * budget_;
+
+ private:
+  const Pilot& pilot_;
+  std::map<Settings, Trial> known_;
+};
+
+class Search {
+ public:
+  Search(const std::vector<Knob>& knobs, double budget, Trials& trials, const Cost& cost)
+      : knobs_(knobs), budget_(budget), trials_(trials), cost_(cost) {}
+
+  // The finest settings must keep the budget.
+  Settings choose() {
+    at_ = Settings(knobs_.size(), 0);
+    for (std::size_t knob = 0; knob < knobs_.size(); ++knob)
+      at_[knob] = turned(at_, knob, knobs_[knob].share);
+    while (tradeAny()) {
+    }
+    return turnFurther(at_);
   }
-  std::vector<std::size_t> with(std::size_t knob, std::size_t value) const {
-    std::vector<std::size_t> settings = at_;
+
+  // By single steps until none keeps the budget.
+  Settings turnFurther(Settings from) {
+    at_ = std::move(from);
+    while (turnAnyFurther()) {
+    }
+    return at_;
+  }
+
+ private:
+  bool keeps(const Settings& settings, double share) { return trials_(settings).bound <= share * budget_; }
+
+  Settings with(std::size_t knob, std::size_t value) const {
+    Settings settings = at_;
     settings[knob] = value;
     return settings;
   }
 
-  // The cheapest value within the knob's share, by bisection: errors grow from the finest to the cheapest.
-  void turn(std::size_t knob) {
-    std::size_t good = at_[knob], bad = knobs_[knob].values.size();
+  // The cheapest value within that share of the budget, by bisection: errors grow from the finest to the
+  // cheapest. The value in `settings` must keep it.
+  std::size_t turned(Settings settings, std::size_t knob, double share) {
+    std::size_t good = settings[knob], bad = knobs_[knob].values.size();
     while (bad - good > 1) {
-      const std::size_t middle = (good + bad) / 2;
-      (keeps(with(knob, middle), knobs_[knob].share) ? good : bad) = middle;
+      settings[knob] = (good + bad) / 2;
+      (keeps(settings, share) ? good : bad) = settings[knob];
     }
-    at_[knob] = good;
+    return good;
+  }
+
+  // A trade has to save some hundredths: a knob is not made finer for less.
+  bool tradeAny() {
+    constexpr double kWorth = 0.98;
+    for (std::size_t knob = 1; knob < knobs_.size(); ++knob)
+      for (const bool finer : {true, false}) {
+        if (finer ? at_[knob] == 0 : at_[knob] + 1 == knobs_[knob].values.size()) continue;
+        Settings traded = with(knob, finer ? at_[knob] - 1 : at_[knob] + 1);
+        traded[0] = 0;
+        if (!keeps(traded, 1)) continue;
+        traded[0] = turned(traded, 0, 1);
+        if (traded[0] == at_[0] || cost_(traded) > kWorth * cost_(at_)) continue;
+        at_ = traded;
+        return true;
+      }
+    return false;
   }
 
   bool turnAnyFurther() {
@@ -58,30 +89,63 @@ class Search {
     return false;
   }
 
-  Plan::Choice choice(std::size_t knob) {
-    const std::vector<std::string>& values = knobs_[knob].values;
-    Plan::Choice result{knobs_[knob].name, values[at_[knob]], 0, "", 0};
-    std::vector<std::size_t> alone(knobs_.size(), 0);
-    alone[knob] = at_[knob];
-    result.alone = trial(alone).error;
-    if (at_[knob] + 1 < values.size()) {
-      result.cheaper = values[at_[knob] + 1];
-      result.cheaperBound = trial(with(knob, at_[knob] + 1)).bound;
-    }
-    return result;
-  }
-
   const std::vector<Knob>& knobs_;
   double budget_;
-  const Pilot& pilot_;
-  std::vector<std::size_t> at_;
-  std::map<std::vector<std::size_t>, Trial> known_;
+  Trials& trials_;
+  const Cost& cost_;
+  Settings at_;
 };
+
+Plan described(const std::vector<Knob>& knobs, const Settings& settings, bool kept, Trials& alone,
+               Trials& judge) {
+  Plan plan{settings, judge(settings), kept, {}};
+  for (std::size_t knob = 0; knob < knobs.size(); ++knob) {
+    const std::vector<std::string>& values = knobs[knob].values;
+    Settings lonely(knobs.size(), 0);
+    lonely[knob] = settings[knob];
+    Plan::Choice choice{knobs[knob].name, values[settings[knob]], alone(lonely).error, "", 0};
+    if (settings[knob] + 1 < values.size()) {
+      Settings cheaper = settings;
+      choice.cheaper = values[++cheaper[knob]];
+      choice.cheaperBound = judge(cheaper).bound;
+    }
+    plan.choices.push_back(choice);
+  }
+  return plan;
+}
 
 }  // namespace
 
-Plan choosePlan(const std::vector<Knob>& knobs, double budget, const Pilot& pilot) {
-  return Search(knobs, budget, pilot).run();
+Plan choosePlan(const std::vector<Knob>& knobs, double budget, const Pilot& pilot, const Cost& cost) {
+  Trials trials(pilot);
+  Settings settings(knobs.size(), 0);
+  const bool kept = trials(settings).bound <= budget;
+  if (kept) settings = Search(knobs, budget, trials, cost).choose();
+  return described(knobs, settings, kept, trials, trials);
+}
+
+Plan choosePlan(const std::vector<Knob>& knobs, double budget, const Pilot& pilot, const Pilot& whole,
+                const Cost& cost) {
+  constexpr int kRounds = 8;
+  constexpr double kLess = 0.85, kMore = 1.5;
+  constexpr double kNearEnough = 0.95;  // a step of the first knob changes the bound by more
+  Trials pilots(pilot), judge(whole);
+  const Settings finest(knobs.size(), 0);
+  Settings best = finest;
+  bool kept = false;
+  double target = budget;
+  for (int round = 0; round < kRounds && pilots(finest).bound <= target; ++round) {
+    const Settings chosen = Search(knobs, target, pilots, cost).choose();
+    const double bound = judge(chosen).bound;
+    if (bound <= budget && (!kept || cost(chosen) < cost(best))) {
+      best = chosen;
+      kept = true;
+    }
+    if (bound <= budget && bound >= kNearEnough * budget) break;
+    target *= std::min((1 + kNearEnough) / 2 * budget / bound, bound > budget ? kLess : kMore);
+  }
+  if (kept) best = Search(knobs, budget, judge, cost).turnFurther(best);
+  return described(knobs, best, kept, pilots, judge);
 }
 
 }  // namespace raycaster

@@ -21,10 +21,14 @@ struct PlannedSpectralScene {
 };
 
 // The settings of `scene` are replaced by the cheapest with which the image's root mean square error stays
-// within the budget (of colours from 0 to 1). `size` is the image's; the pilot is drawn in the current
-// context.
+// within the budget (of colours from 0 to 1). `size` is the image's. A pilot is held to the reference; the
+// whole image, to one drawn with far finer settings, whose own error the pilot tells (not where rays bend:
+// that would take minutes). All are drawn in the current context.
 PlannedScene planFor(const Gl&, Glsl, Scene, const Camera&, int size, double budget);
 PlannedSpectralScene planFor(const Gl&, Glsl, SpectralScene, const Camera&, int size, double budget);
+
+// The steps that a plan chooses from, in slabs per unit of object space, from the finest on.
+const std::vector<double>& plannedSlabs();
 
 // For people: what was chosen, what each choice costs in error, what one step cheaper would, what was left
 // out.
