@@ -103,9 +103,12 @@ def style(names):
     return result
 
 
-def chart(name, heading, panels):
-    """panels: (title, x key, y key, x label, y label, log x, log y, extra lines)."""
+def chart(name, heading, panels, **computed):
+    """panels: (title, x key, y key, x label, y label, log x, log y, extra lines); computed: more keys of a row."""
     series = read(name)
+    for points in series.values():
+        for row in points:
+            row.update({key: value(row) for key, value in computed.items()})
     styles = style(series)
     width, gap, height = 330, 90, 250
     total = 70 + len(panels) * (width + gap)
@@ -146,11 +149,12 @@ def draw(name):
               [("error against size", "x", "rms", "entries along an edge", error, True, True),
                ("largest error", "x", "max", "entries along an edge", most, True, True)])
     elif name == "termination":
-        chart(name, "Early ray termination (C60, step 1/256; dotted: 1 - limit)",
-              [("what it saves", "x", "fetches", "opacity limit (1: off)", fetches, False, False),
-               ("what it costs", "x", "max", "opacity limit (1: off)", most, False, True,
-                lambda limit: max(1 - limit, 1e-6)),
-               time])
+        never = 5e-4
+        chart(name, "Early ray termination (C60, step 1/256; dotted: what is cut off at most)",
+              [("what it saves", "residual", "fetches", "residual transparency (left end: off)", fetches, True, False),
+               ("what it costs", "residual", "max", "residual transparency (left end: off)", most, True, True,
+                lambda residual: residual),
+               time], residual=lambda row: max(1 - row["x"], never))
     elif name == "leaping":
         chart(name, "Empty-space leaping (C60, step 1/512, limit 0.95, 192 x 192)",
               [("fetches", "x", "fetches", "degrees from frame to frame", fetches, False, True),
