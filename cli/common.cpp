@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "session/text.h"
 #include "session/values.h"
 
 namespace shadestep::cli {
@@ -221,6 +222,39 @@ Json toJson(const instrumenter::Value& value) {
   if (value.words.empty()) return nullptr;
   const std::uint32_t* word = value.words.data();
   return nested(value.type, word);
+}
+
+namespace {
+
+// A number where the whole text is one, else the text.
+Json asJson(const std::string& value) {
+  const char* end = value.data() + value.size();
+  std::int64_t integer = 0;
+  if (const auto [at, error] = std::from_chars(value.data(), end, integer); error == std::errc() && at == end)
+    return integer;
+  double real = 0;
+  if (const auto [at, error] = std::from_chars(value.data(), end, real); error == std::errc() && at == end)
+    return number(real);
+  return value;
+}
+
+}  // namespace
+
+Json toJson(const session::LoggedCall& call) {
+  Json arguments = Json::array();
+  for (const auto& [name, value] : call.arguments)
+    arguments.push_back({{"name", name}, {"value", asJson(value)}});
+  Json json;
+  json["frame"] = call.frame;
+  json["index"] = call.index;
+  json["thread"] = call.thread;
+  json["name"] = call.name;
+  json["args"] = std::move(arguments);
+  json["result"] = call.result.empty() ? Json(nullptr) : asJson(call.result);
+  json["error"] = call.error == 0 ? Json(nullptr) : Json(session::errorName(call.error));
+  if (call.skipped) json["skipped"] = true;
+  if (!call.returned) json["returned"] = false;
+  return json;
 }
 
 }  // namespace shadestep::cli

@@ -61,6 +61,7 @@ void print(const Json& document);  // one document on stdout
 Json toJson(const session::Check&);
 using session::describe;                  // of a check
 Json toJson(const instrumenter::Value&);  // exact: shortest digits; NaN and infinities as strings
+Json toJson(const session::LoggedCall&);
 Json number(double value);                // NaN and infinities as strings
 using session::withThousands;
 
@@ -68,6 +69,7 @@ using session::withThousands;
 void addRun(CLI::App&, Common&, Action&);
 void addDraws(CLI::App&, Common&, Action&);
 void addCalls(CLI::App&, Common&, Action&);
+void addBreak(CLI::App&, Common&, Action&);
 void addSource(CLI::App&, Common&, Action&);
 void addDebug(CLI::App&, Common&, Action&);
 void addStep(CLI::App&, Common&, Action&);

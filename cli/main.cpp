@@ -31,6 +31,7 @@ int runCommandLine(int argc, char** argv) {
   cli::addRun(app, common, action);
   cli::addDraws(app, common, action);
   cli::addCalls(app, common, action);
+  cli::addBreak(app, common, action);
   cli::addSource(app, common, action);
   cli::addDebug(app, common, action);
   cli::addStep(app, common, action);

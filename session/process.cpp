@@ -103,7 +103,8 @@ const std::optional<ExitStatus>& Process::wait(int timeout_ms) {
 }
 
 void Process::kill(int signal) {
-  if (!status_) ::kill(pid_, signal);
+  // By descriptor: another process may have the number by now, and another thread may be waiting here.
+  syscall(SYS_pidfd_send_signal, pidfd_.get(), signal, nullptr, 0);
 }
 
 }  // namespace shadestep::session

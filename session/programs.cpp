@@ -161,6 +161,7 @@ void Programs::endPause() {
 
 std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) {
   while (true) {
+    dropClosed();  // also where a message could not be sent: such a channel would never become readable
     std::vector<pollfd> entries;
     entries.push_back({listener_.descriptor(), POLLIN, 0});
     entries.push_back({interrupts_.get(), static_cast<short>(pausing_ ? 0 : POLLIN), 0});
@@ -183,7 +184,6 @@ std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) 
       if (entries[first_peer + i].revents == 0) continue;
       if (auto stopped = hear(*peers_[i])) return stopped;
     }
-    dropClosed();
     if ((entries[0].revents & POLLIN) != 0) greet();
   }
 }

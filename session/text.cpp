@@ -92,4 +92,16 @@ std::string asCsv(const ThreadValues& threads) {
   return csv;
 }
 
+std::string describe(const LoggedCall& call) {
+  std::string text = call.name + "(";
+  for (const auto& [name, value] : call.arguments)
+    text += (text.back() == '(' ? "" : ", ") + name + " = " + value;
+  text += ")";
+  if (!call.result.empty()) text += " = " + call.result;
+  if (call.error != 0) text += "  -> " + errorName(call.error);
+  if (call.skipped) text += "  -> left out";
+  if (!call.returned) text += "  -> did not return";
+  return text;
+}
+
 }  // namespace shadestep::session

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "session/calls.h"
 #include "session/thread_values.h"
 
 namespace shadestep::session {
@@ -16,6 +17,9 @@ std::string withThousands(std::uint64_t value);  // "1,048,576"
 // "GL_TRIANGLES"; the number in hexadecimal if it is no primitive mode.
 std::string primitiveModeName(std::uint32_t mode);
 std::string errorName(std::uint32_t error);  // "GL_INVALID_ENUM"
+
+// "glDrawArrays(mode = GL_TRIANGLES, first = 0, count = 3)", with its result, its error, and what became of it.
+std::string describe(const LoggedCall&);
 
 // A header line, then a row for each thread that got to the place: x, y, and the values, a component each.
 std::string asCsv(const ThreadValues&);

@@ -1,6 +1,5 @@
 // shadestep calls: what a program asks of OpenGL, call by call, or how often.
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <map>
 #include <tuple>
@@ -17,48 +16,10 @@ struct Options {
   bool statistics = false;
 };
 
-// A number where the whole text is one, else the text.
-Json asJson(const std::string& value) {
-  const char* end = value.data() + value.size();
-  std::int64_t integer = 0;
-  if (const auto [at, error] = std::from_chars(value.data(), end, integer); error == std::errc() && at == end)
-    return integer;
-  double real = 0;
-  if (const auto [at, error] = std::from_chars(value.data(), end, real); error == std::errc() && at == end)
-    return number(real);
-  return value;
-}
-
-Json toJson(const session::LoggedCall& call) {
-  Json arguments = Json::array();
-  for (const auto& [name, value] : call.arguments)
-    arguments.push_back({{"name", name}, {"value", asJson(value)}});
-  Json json;
-  json["frame"] = call.frame;
-  json["index"] = call.index;
-  json["thread"] = call.thread;
-  json["name"] = call.name;
-  json["args"] = std::move(arguments);
-  json["result"] = call.result.empty() ? Json(nullptr) : asJson(call.result);
-  json["error"] = call.error == 0 ? Json(nullptr) : Json(session::errorName(call.error));
-  if (!call.returned) json["returned"] = false;
-  return json;
-}
-
 void printCall(const session::LoggedCall& call, bool with_thread) {
   std::cout << call.frame << ":" << call.index;
   if (with_thread) std::cout << " [" << call.thread << "]";
-  std::cout << " " << call.name << "(";
-  const char* separator = "";
-  for (const auto& [name, value] : call.arguments) {
-    std::cout << separator << name << " = " << value;
-    separator = ", ";
-  }
-  std::cout << ")";
-  if (!call.result.empty()) std::cout << " = " << call.result;
-  if (call.error != 0) std::cout << "  -> " << session::errorName(call.error);
-  if (!call.returned) std::cout << "  -> did not return";
-  std::cout << "\n";
+  std::cout << " " << session::describe(call) << "\n";
 }
 
 // How often each command was called, frame by frame and in total.

@@ -1,5 +1,6 @@
 // Stopping at calls, looking at them, changing and skipping them. Truth: what the program itself reads back.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <sstream>
 #include <thread>
@@ -212,6 +213,17 @@ TEST_F(CallStops, AnInterruptStopsARunningProgram) {
   killer.join();
 }
 
+TEST_F(CallStops, AProgramKilledWhereItStandsHasEnded) {
+  const auto session = frames("3");
+  session->runUntil(at("glClear"));
+  session->kill();
+  siginfo_t dead{};
+  ASSERT_EQ(waitid(P_ALL, 0, &dead, WEXITED | WNOWAIT), 0);
+  const Stop stop = session->runUntil({});
+  EXPECT_EQ(stop.reason, StopReason::ended);
+  EXPECT_NE(stop.end.find("was killed by signal 9"), std::string::npos) << stop.end;
+}
+
 // What was not sent yet, and the call in which the program died.
 TEST_F(CallStops, NothingOfTheLogIsLostWhenTheProgramDies) {
   for (const std::string how : {"exit 1", "crash 1"}) {
@@ -232,6 +244,57 @@ TEST_F(CallStops, NothingOfTheLogIsLostWhenTheProgramDies) {
       EXPECT_NE(stop.end.find("in glDrawArrays"), std::string::npos) << stop.end;
     }
   }
+}
+
+// ---- the command break
+
+TEST(BreakCommand, ChangesEveryCallThatMatches) {
+  const Scratch scratch;
+  const Finished changed = scratch.shadestep(
+      {"break", "--at-call", "glUniform4f", "--set", "v0=0.6", "--set", "v1=1", "--frames", "1..2", "--json"},
+      {binary("programs/frames"), "3"});
+  EXPECT_EQ(changed.status, 0) << changed.err;
+  const Json stops = changed.json()["stops"];
+  ASSERT_EQ(stops.size(), 2U);
+  EXPECT_EQ(stops[0]["call"]["frame"], 1);
+  EXPECT_EQ(stops[0]["call"]["args"][1]["value"], 0.6);
+  EXPECT_NE(changed.err.find("0: 51 255 error 0x0\n1: 153 255 error 0x0\n"), std::string::npos)
+      << changed.err;
+}
+
+TEST(BreakCommand, LeavesCallsOut) {
+  const Scratch scratch;
+  const Finished skipped = scratch.shadestep({"break", "--at-call", "glDraw*", "--skip", "--stops", "1"},
+                                             {binary("programs/frames"), "2"});
+  EXPECT_EQ(skipped.status, 0) << skipped.err;
+  EXPECT_EQ(skipped.out, "0: 0 255 error 0x0\n1: 51 255 error 0x0\n");
+  const Finished none =
+      scratch.shadestep({"break", "--at-call", "glNothing", "--skip"}, {binary("programs/frames"), "1"});
+  EXPECT_EQ(none.status, 3);
+  const Finished wrong = scratch.shadestep({"break", "--at-call", "glDraw*", "--set", "cnt=1"},
+                                           {binary("programs/frames"), "1"});
+  EXPECT_EQ(wrong.status, 3);
+  EXPECT_NE(wrong.err.find("it has mode, first, count"), std::string::npos) << wrong.err;
+}
+
+TEST(BreakCommand, FollowsCommandsOnStdin) {
+  const Scratch scratch;
+  const Finished run = scratch.run(
+      {"sh", "-c",
+       "printf 'next\nset v0=1\ncall glUniform*\nset v0=0.4\ndraw\nskip\nerror\nrun\n' | '" +
+           binary("shadestep") + "' break --at-switch --json -- '" + binary("programs/frames") + "' 3"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Json steps = run.json()["steps"];
+  ASSERT_EQ(steps.size(), 9U);
+  EXPECT_EQ(steps[0]["call"]["name"], "glUseProgram");
+  EXPECT_EQ(steps[1]["call"]["name"], "glGetUniformLocation");
+  EXPECT_EQ(steps[2]["error"], "glGetUniformLocation has no argument 'v0'; it has program, name");
+  EXPECT_EQ(steps[4]["call"]["args"][1]["value"], 0.4);
+  EXPECT_EQ(steps[5]["draw"], Json({{"frame", 0}, {"draw", 0}, {"call", "glDrawArrays"}}));
+  EXPECT_TRUE(steps[6].contains("error"));
+  EXPECT_EQ(steps[7]["call"]["error"], "GL_INVALID_ENUM");
+  EXPECT_EQ(steps[8]["reason"], "ended");
+  EXPECT_NE(run.err.find("0: 102 255"), std::string::npos) << run.err;
 }
 
 }  // namespace
