@@ -77,5 +77,6 @@ void addLoops(CLI::App&, Common&, Action&);
 void addProfile(CLI::App&, Common&, Action&);
 void addDoctor(CLI::App&, Common&, Action&);
 void addVerify(CLI::App&, Common&, Action&);
+void addGui(CLI::App&, Common&, Action&);
 
 }  // namespace shadestep::cli

@@ -39,6 +39,7 @@ int runCommandLine(int argc, char** argv) {
   cli::addProfile(app, common, action);
   cli::addDoctor(app, common, action);
   cli::addVerify(app, common, action);
+  cli::addGui(app, common, action);
 
   try {
     app.parse(arguments);

@@ -374,4 +374,11 @@ Profile profileAuto(session::Session& session, const ProfileOptions& options) {
   return profile;
 }
 
+Profile profileBy(const std::string& method, session::Session& session, const ProfileOptions& options) {
+  if (method == "count") return profileCount(session, options);
+  if (method == "clock") return profileClock(session, options);
+  if (method == "isolate") return profileIsolate(session, options);
+  return profileAuto(session, options);
+}
+
 }  // namespace shadestep::profiler

@@ -150,4 +150,7 @@ Profile profileIsolate(session::Session&, const ProfileOptions&);
 // The best that works here: clock, else isolate, else count; why the better ones do not stands in the notes.
 Profile profileAuto(session::Session&, const ProfileOptions&);
 
+// By the method of this name: "count", "clock", "isolate"; any other: profileAuto.
+Profile profileBy(const std::string& method, session::Session&, const ProfileOptions&);
+
 }  // namespace shadestep::profiler

@@ -1,6 +1,7 @@
 #include "profiler/profile_files.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "profiler/pictures/difference_map.h"
 #include "profiler/pictures/files.h"
@@ -253,6 +254,12 @@ void writeProfile(const Profile& profile, const ProfileFiles& files, const Subje
   writeFile(files.profile_json, document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   writeFile(files.report_html,
             makeReport(profile, document, subject.source, subject.what, layersOf(profile, comparison)));
+}
+
+std::string subjectOf(const std::string& program, session::Session& session) {
+  return std::filesystem::path(program).filename().string() + ", frame " +
+         std::to_string(session.stop().frame) + ", draw " + std::to_string(session.stop().draw) +
+         ", fragment shader, on " + session.facts().renderer;
 }
 
 }  // namespace shadestep::profiler

@@ -25,6 +25,9 @@ struct Subject {
   std::vector<std::string> source;  // the shader's lines
 };
 
+// "raycaster, frame 0, draw 0, fragment shader, on llvmpipe (...)"
+std::string subjectOf(const std::string& program, session::Session&);
+
 // The document of docs/cli.md for the command `profile`. Numbers are exact; NaN is the string "NaN".
 nlohmann::ordered_json toJson(const Profile&, const ProfileFiles&, const Subject&,
                               const Comparison* comparison = nullptr);

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -89,21 +88,6 @@ profiler::ProfileOptions profileOptions(const Options& options) {
     result.roi = profiler::Region{roi[0], roi[1], roi[2], roi[3]};
   }
   return result;
-}
-
-profiler::Profile measure(session::Session& session, const std::string& method,
-                          const profiler::ProfileOptions& options) {
-  if (method == "count") return profiler::profileCount(session, options);
-  if (method == "clock") return profiler::profileClock(session, options);
-  if (method == "isolate") return profiler::profileIsolate(session, options);
-  return profiler::profileAuto(session, options);
-}
-
-// "raycaster, frame 0, draw 0, on llvmpipe (...)"
-std::string subject(session::Session& session, const Common& common) {
-  return std::filesystem::path(common.program.front()).filename().string() + ", frame " +
-         std::to_string(session.stop().frame) + ", draw " + std::to_string(session.stop().draw) +
-         ", fragment shader, on " + session.facts().renderer;
 }
 
 // The costliest lines, most first.
@@ -210,11 +194,12 @@ int run(const Common& common, const Options& options) {
     ProgressBar bar("profiling", common.quiet);
     how.progress = [&bar](double share) { bar.update(share); };
     // Against an earlier run only its own method says anything.
-    profile = measure(session, earlier && options.method == "auto" ? earlier->method : options.method, how);
+    profile = profiler::profileBy(earlier && options.method == "auto" ? earlier->method : options.method,
+                                  session, how);
   }
   if (profile.interrupted) std::fprintf(stderr, "interrupted: this is what was measured until then\n");
   const frontend::Shader& shader = session.shader(session::Stage::fragment);
-  const profiler::Subject what{subject(session, common), shader.lines};
+  const profiler::Subject what{profiler::subjectOf(common.program.front(), session), shader.lines};
   std::optional<profiler::Comparison> comparison;
   if (earlier) comparison = profiler::compare(*earlier, profile, shader.lines);
   const profiler::Comparison* const compared = comparison ? &*comparison : nullptr;

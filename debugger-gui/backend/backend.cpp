@@ -1,0 +1,72 @@
+#include "debugger-gui/backend/backend.h"
+
+namespace shadestep::gui {
+namespace {
+constexpr qint64 kReportEveryMs = 50;
+}
+
+Backend::Backend(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>()) {
+  last_report_.start();
+}
+
+Backend::~Backend() {
+  worker_->clear();
+  if (outstanding_ > 0) debuggee_.endWait();
+  worker_.reset();  // waits for what runs; nothing of it is delivered any more
+}
+
+void Backend::enqueue(const QString& what, const std::string& key,
+                      std::function<std::function<void()>()> work) {
+  const auto on_main = [this](std::function<void()> what_to_do) {
+    QMetaObject::invokeMethod(this, std::move(what_to_do), Qt::QueuedConnection);
+  };
+  ++outstanding_;
+  const std::size_t dropped = worker_->post(key, [this, what, work = std::move(work), on_main] {
+    debuggee_.clearCancel();
+    on_main([this, what] {
+      current_ = what;
+      Q_EMIT started(what);
+    });
+    std::function<void()> deliver;
+    try {
+      deliver = work();
+    } catch (const session::Error& error) {
+      const QString sentence = QString::fromStdString(error.what());
+      deliver = [this, what, sentence, outcome = error.outcome()] { Q_EMIT failed(what, sentence, outcome); };
+    } catch (const std::exception& error) {
+      const QString sentence = QString::fromUtf8(error.what());
+      deliver = [this, what, sentence] { Q_EMIT failed(what, sentence, session::Outcome::failed); };
+    }
+    on_main([this, deliver = std::move(deliver)] {
+      deliver();
+      finish();
+    });
+  });
+  outstanding_ -= static_cast<int>(dropped);
+}
+
+void Backend::finish() {
+  --outstanding_;
+  if (outstanding_ > 0) return;
+  current_.clear();
+  Q_EMIT becameIdle();
+}
+
+void Backend::cancel() {
+  outstanding_ -= static_cast<int>(worker_->clear());
+  debuggee_.cancel();
+}
+
+void Backend::endProgramNow() {
+  outstanding_ -= static_cast<int>(worker_->clear());
+  debuggee_.endWait();
+}
+
+void Backend::report(double share) {
+  if (last_report_.elapsed() < kReportEveryMs && share < 1) return;
+  last_report_.restart();
+  QMetaObject::invokeMethod(
+      this, [this, share] { Q_EMIT progress(share); }, Qt::QueuedConnection);
+}
+
+}  // namespace shadestep::gui

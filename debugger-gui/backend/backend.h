@@ -1,0 +1,65 @@
+// Requests to the debuggee, carried out on a thread of their own, so that the window never waits; their
+// results come back to the main thread.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QString>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "debugger-gui/backend/debuggee.h"
+#include "debugger-gui/backend/worker.h"
+
+namespace shadestep::gui {
+
+class Backend : public QObject {
+  Q_OBJECT
+ public:
+  explicit Backend(QObject* parent = nullptr);
+  ~Backend() override;  // ends the program under debug
+
+  // `work(Debuggee&)` runs on the worker thread, `done(result)` then here. A request of the same `key` that
+  // still waits is forgotten; "" = none. `what` is what the user reads meanwhile.
+  template <class Work, class Done>
+  void ask(const QString& what, const std::string& key, Work work, Done done) {
+    enqueue(what, key, [this, work, done]() -> std::function<void()> {
+      if constexpr (std::is_void_v<std::invoke_result_t<Work, Debuggee&>>) {
+        work(debuggee_);
+        return done;
+      } else {
+        auto result = std::make_shared<std::invoke_result_t<Work, Debuggee&>>(work(debuggee_));
+        return [done, result] { done(std::move(*result)); };
+      }
+    });
+  }
+
+  bool idle() const { return outstanding_ == 0; }
+  QString current() const { return current_; }
+  // Forgets what waits; what runs is asked to stop.
+  void cancel();
+  // The same, and ends the program where the wait is for it.
+  void endProgramNow();
+  int process() const { return debuggee_.process(); }
+  // Shares done, from the worker thread.
+  void report(double share);
+
+ Q_SIGNALS:
+  void started(const QString& what);
+  void becameIdle();
+  void progress(double share);
+  void failed(const QString& what, const QString& sentence, shadestep::session::Outcome);
+
+ private:
+  void enqueue(const QString& what, const std::string& key, std::function<std::function<void()>()> work);
+  void finish();
+
+  Debuggee debuggee_;
+  int outstanding_ = 0;  // asked, and neither answered nor forgotten
+  QString current_;
+  QElapsedTimer last_report_;
+  std::unique_ptr<Worker> worker_;
+};
+
+}  // namespace shadestep::gui

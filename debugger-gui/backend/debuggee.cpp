@@ -1,0 +1,359 @@
+#include "debugger-gui/backend/debuggee.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+
+#include "profiler/profile_files.h"
+#include "session/window.h"
+
+namespace shadestep::gui {
+
+using session::Error;
+using session::Outcome;
+
+namespace {
+
+bool hasEnded(int process) {
+  siginfo_t info{};
+  if (process <= 0) return false;
+  return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         info.si_pid == process;
+}
+
+std::string whyNot(session::Session& session) {
+  try {
+    session.requireCapturable();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::vector<std::string> textOf(const session::StageFacts& facts) {
+  std::string whole;
+  for (const auto& object : facts.objects)
+    for (const std::string& string : object) whole += string;
+  std::vector<std::string> lines(1);
+  for (const char c : whole) {
+    if (c == '\n') {
+      lines.emplace_back();
+    } else {
+      lines.back() += c;
+    }
+  }
+  return lines;
+}
+
+StageSource sourceOf(session::Session& session, const session::StageFacts& facts) {
+  StageSource source;
+  source.stage = facts.stage;
+  source.reason = facts.reason;
+  try {
+    const frontend::Shader& shader = session.shader(facts.stage);
+    source.version = shader.version;
+    source.lines = shader.lines;
+    for (int line = 1; line <= static_cast<int>(shader.lines.size()); ++line)
+      if (!frontend::statementsAt(shader, line).empty()) source.stops.push_back(line);
+  } catch (const Error& error) {
+    if (source.reason.empty()) source.reason = error.what();
+    source.lines = textOf(facts);
+  }
+  if (facts.stage != session::Stage::fragment && source.reason.empty())
+    source.reason = "this version of shadestep steps through fragment shaders only";
+  return source;
+}
+
+}  // namespace
+
+Debuggee::~Debuggee() {
+  end();
+}
+
+// ---- the program
+
+void Debuggee::start(const session::LaunchOptions& options) {
+  end();
+  launch_ = options;
+  session_ = std::make_unique<session::Session>(options);
+  process_ = session_->processId();
+}
+
+void Debuggee::end() {
+  process_ = 0;
+  stepper_.reset();
+  stop_.reset();
+  next_frame_ = 0;
+  session_.reset();
+}
+
+void Debuggee::endWait() {
+  cancelled_ = true;
+  if (const int process = process_.load(); process > 0) {
+    kill(process, SIGTERM);
+    kill(process, SIGCONT);
+  }
+}
+
+Stop Debuggee::goTo(std::uint64_t frame, std::uint64_t draw) {
+  if (launch_.command.empty()) throw Error(Outcome::usage, "start a program first");
+  const bool passed =
+      stop_ ? std::pair(frame, draw) <= std::pair(stop_->frame, stop_->draw) : frame < next_frame_;
+  const bool again = session_ != nullptr && (passed || hasEnded(process_));
+  const bool had_ended = session_ == nullptr;
+  if (stop_ && !hasEnded(process_) && stop_->frame == frame && stop_->draw == draw) return stopped(false);
+  if (again || had_ended) start(session::LaunchOptions(launch_));
+  stepper_.reset();
+  stop_.reset();
+  next_frame_ = frame + 1;
+  try {
+    stop_ = session_->runTo(frame, draw);
+  } catch (const Error& error) {
+    if (error.outcome() == Outcome::ended) end();
+    throw;
+  }
+  return stopped(again);
+}
+
+Stop Debuggee::nextDraw() {
+  atDraw();
+  std::uint64_t frame = stop_->frame;
+  std::uint64_t draw = stop_->draw + 1;
+  stepper_.reset();
+  stop_.reset();
+  while (true) {
+    next_frame_ = frame + 1;
+    try {
+      stop_ = session_->runTo(frame, draw);
+      return stopped(false);
+    } catch (const Error& error) {
+      if (error.outcome() == Outcome::ended) end();
+      if (error.outcome() != Outcome::nothing_matches || cancelled_) throw;
+    }
+    ++frame;
+    draw = 0;
+  }
+}
+
+std::vector<DrawEntry> Debuggee::listFrame() {
+  std::vector<DrawEntry> draws;
+  const std::uint64_t frame = stop_ ? stop_->frame : next_frame_;
+  const std::uint64_t first = stop_ ? stop_->draw : 0;
+  if (stop_) draws.push_back(entry());
+  if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
+  stepper_.reset();
+  stop_.reset();
+  next_frame_ = frame + 1;
+  try {
+    session_->forEachDraw(frame, frame, [&](const session::DrawStop& stop) {
+      if (cancelled_) throw Error(Outcome::usage, "the list ends where it was stopped");
+      if (stop.draw <= first && !draws.empty()) return;
+      stop_ = stop;
+      draws.push_back(entry());
+    });
+  } catch (const Error& error) {
+    if (error.outcome() == Outcome::ended) end();
+    if (draws.empty()) throw;
+  }
+  stop_.reset();
+  return draws;
+}
+
+int Debuggee::runToEnd() {
+  if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
+  stepper_.reset();
+  stop_.reset();
+  const int status = session_->runToEnd();
+  end();
+  return status;
+}
+
+session::Session& Debuggee::atDraw() {
+  if (session_ != nullptr && hasEnded(process_)) {
+    end();
+    throw Error(Outcome::ended, "the program has ended; 'Run' starts it again");
+  }
+  if (session_ == nullptr || !stop_) throw Error(Outcome::usage, "the program does not stand at a draw");
+  return *session_;
+}
+
+DrawEntry Debuggee::entry() {
+  DrawEntry entry;
+  entry.stop = *stop_;
+  const session::DrawFacts& facts = session_->facts();
+  entry.program = facts.program;
+  entry.framebuffer = facts.framebuffer;
+  std::copy(std::begin(facts.viewport), std::end(facts.viewport), std::begin(entry.viewport));
+  entry.reason = whyNot(*session_);
+  return entry;
+}
+
+Stop Debuggee::stopped(bool restarted) {
+  Stop stop;
+  stop.draw = entry();
+  stop.facts = session_->facts();
+  for (const session::StageFacts& facts : stop.facts.stages)
+    stop.stages.push_back(sourceOf(*session_, facts));
+  stop.restarted = restarted;
+  try {
+    session_->choose(fragments_);
+  } catch (const Error&) {
+    fragments_ = {};  // this draw has no such layer, sample or test
+    session_->choose(fragments_);
+  }
+  return stop;
+}
+
+// ---- in the shader
+
+std::optional<std::size_t> Debuggee::pickedIndex() {
+  const session::DrawFacts& facts = session_->facts();
+  if (!pixel_ || pixel_->x >= facts.width || pixel_->y >= facts.height) return std::nullopt;
+  return static_cast<std::size_t>(pixel_->y) * static_cast<std::size_t>(facts.width) +
+         static_cast<std::size_t>(pixel_->x);
+}
+
+session::Stepper& Debuggee::stepper() {
+  session::Session& session = atDraw();
+  session.requireCapturable();
+  if (!stepper_) stepper_ = std::make_unique<session::Stepper>(session, pickedIndex());
+  return *stepper_;
+}
+
+void Debuggee::pick(std::optional<Pixel> pixel) {
+  pixel_ = pixel;
+  if (stepper_) stepper_->pick(pickedIndex());
+}
+
+Place Debuggee::restartShader() {
+  stepper().moveTo(stepper().navigation().start());
+  return place();
+}
+
+Place Debuggee::move(Move move) {
+  session::Stepper& at = stepper();
+  const session::Position here = at.position();
+  const session::Navigation& navigation = at.navigation();
+  if (here.ended()) throw Error(Outcome::nothing_matches, "the threads have ended; start the shader again");
+  if (here.condition && (move == Move::over || move == Move::into)) {
+    at.choose();
+    return place();
+  }
+  const auto destination = [&] {
+    switch (move) {
+      case Move::into:
+        return navigation.into(here);
+      case Move::out:
+        return navigation.out(here);
+      case Move::next_iteration:
+        return navigation.nextIteration(here);
+      case Move::leave_loop:
+        return navigation.leaveLoop(here);
+      case Move::over:
+        break;
+    }
+    return navigation.over(here);
+  };
+  const session::Position to = destination();
+  if (to == here) throw Error(Outcome::nothing_matches, "there is no loop around this statement");
+  at.moveTo(to);
+  return place();
+}
+
+Place Debuggee::moveTo(const session::Position& position) {
+  stepper().moveTo(position);
+  return place();
+}
+
+Place Debuggee::toLine(int line) {
+  const session::Position to = stepper().navigation().toLine(stepper().position(), line);
+  if (to == stepper().position())
+    throw Error(Outcome::nothing_matches,
+                "line " + std::to_string(line) + " has no other statement of this function");
+  return moveTo(to);
+}
+
+Place Debuggee::choose(const std::string& side) {
+  stepper().choose(side);
+  return place();
+}
+
+LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
+  session::Stepper& at = stepper();
+  auto look = std::make_shared<Look>();
+  if (at.ended()) return look;
+  const instrumenter::Probe probe = session::probeAt(at.shader(), at.position());
+  std::vector<std::string> wanted;
+  for (const std::string& expression : expressions) {
+    const frontend::WatchResult found = session::watchAt(at.shader(), probe, expression);
+    if (found.watch) {
+      wanted.push_back(expression);
+    } else {
+      look->refused.emplace_back(expression, found.error);
+    }
+  }
+  look->threads = at.look(wanted);
+  for (const session::WatchedValues& value : look->threads.values)
+    look->statistics.push_back(session::statistics(look->threads, value));
+  return look;
+}
+
+RunPtr Debuggee::followPicked() {
+  session::Session& session = atDraw();
+  if (!pixel_) throw Error(Outcome::usage, "pick a pixel first");
+  auto view = std::make_shared<RunView>();
+  view->run = session::followPixel(session, pixel_->x, pixel_->y);
+  view->positions = session::positionsOf(session.shader(session::Stage::fragment), view->run.steps);
+  return view;
+}
+
+// ---- all of the draw
+
+void Debuggee::chooseFragments(const session::FragmentChoice& choice) {
+  atDraw().choose(choice);
+  fragments_ = choice;
+  stepper_.reset();
+}
+
+TargetPtr Debuggee::target() {
+  session::Session& session = atDraw();
+  session::ExecuteOptions options;
+  options.compare = false;
+  options.read_outputs = true;
+  options.read_captures = false;
+  session::Execution execution = session.execute(session.prepareOriginal(), options);
+  auto target = std::make_shared<TargetView>();
+  target->width = session.facts().width;
+  target->height = session.facts().height;
+  target->outputs = std::move(execution.outputs);
+  return target;
+}
+
+LoopsPtr Debuggee::loops() {
+  return std::make_shared<session::LoopsReport>(session::profileLoops(atDraw()));
+}
+
+ProfilePtr Debuggee::profile(const CostRequest& request, const std::function<void(double)>& progress) {
+  session::Session& session = atDraw();
+  session.requireCapturable();
+  std::optional<profiler::Earlier> earlier;
+  if (!request.compare_to.empty()) earlier = profiler::readEarlier(request.compare_to);
+  profiler::ProfileOptions options;
+  options.budget = request.budget;
+  options.progress = progress;
+  options.stop = [this] { return cancelled_.load(); };
+  auto view = std::make_shared<ProfileView>();
+  const std::string method = earlier && request.method == "auto" ? earlier->method : request.method;
+  view->profile = profiler::profileBy(method, session, options);
+  view->source = session.shader(session::Stage::fragment).lines;
+  view->subject = profiler::subjectOf(launch_.command.front(), session);
+  if (earlier) view->comparison = profiler::compare(*earlier, view->profile, view->source);
+  return view;
+}
+
+GlState Debuggee::glState() {
+  return atDraw().glState();
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,90 @@
+// The program under debug as the worker thread sees it: one Session after another, and what stands on its
+// stop. Used on the worker thread alone, except where it says otherwise. Throws session::Error.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "debugger-gui/backend/snapshots.h"
+
+namespace shadestep::gui {
+
+enum class Move { over, into, out, next_iteration, leave_loop };
+
+struct Pixel {
+  int x = 0, y = 0;
+  bool operator==(const Pixel&) const = default;
+};
+
+struct CostRequest {
+  std::string method = "auto";
+  double budget = 12;      // seconds
+  std::string compare_to;  // profile.json of an earlier run; empty: none
+};
+
+class Debuggee {
+ public:
+  ~Debuggee();
+
+  // Ends the program that runs, if any, and starts this one; it runs until goTo.
+  void start(const session::LaunchOptions&);
+  void end();
+  bool running() const { return session_ != nullptr; }
+
+  // Starts the program again where it has passed the draw, or has ended.
+  Stop goTo(std::uint64_t frame, std::uint64_t draw);
+  // The next draw, in this frame or, behind its last, the next.
+  Stop nextDraw();
+  // The draws from the present stop to the end of its frame, or of the next one; then the program stands
+  // before the frame after it.
+  std::vector<DrawEntry> listFrame();
+  // Lets the program go on to its own end; its exit status.
+  int runToEnd();
+
+  void pick(std::optional<Pixel>);
+  Place restartShader();
+  Place move(Move);
+  Place moveTo(const session::Position&);
+  Place toLine(int line);
+  Place choose(const std::string& side);
+  LookPtr look(const std::vector<std::string>& expressions);
+  RunPtr followPicked();
+
+  void chooseFragments(const session::FragmentChoice&);
+  TargetPtr target();
+  LoopsPtr loops();
+  ProfilePtr profile(const CostRequest&, const std::function<void(double)>& progress);
+  GlState glState();
+
+  // Any thread: asks what takes long to stop, and ends a wait for a program that does not get to where it
+  // should, with the program.
+  void cancel() { cancelled_ = true; }
+  void endWait();
+  void clearCancel() { cancelled_ = false; }
+  int process() const { return process_; }  // 0: none
+
+ private:
+  Stop stopped(bool restarted);
+  DrawEntry entry();
+  session::Stepper& stepper();
+  session::Session& atDraw();
+  Place place();
+  std::optional<std::size_t> pickedIndex();
+
+  session::LaunchOptions launch_;
+  std::unique_ptr<session::Session> session_;
+  std::unique_ptr<session::Stepper> stepper_;
+  std::optional<session::DrawStop> stop_;
+  std::uint64_t next_frame_ = 0;  // without a stop: the first that has not begun
+  std::optional<Pixel> pixel_;
+  session::FragmentChoice fragments_;
+  std::optional<profiler::Earlier> earlier_;
+  std::atomic<bool> cancelled_ = false;
+  std::atomic<int> process_ = 0;
+};
+
+}  // namespace shadestep::gui

@@ -1,0 +1,117 @@
+// What the worker thread hands to the window: values of their own, that nobody changes any more.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "profiler/comparison.h"
+#include "profiler/profile.h"
+#include "session/loops.h"
+#include "session/run_positions.h"
+#include "session/session.h"
+#include "session/stepper.h"
+#include "session/thread_values.h"
+
+namespace shadestep::gui {
+
+// A draw as the frame tree shows it.
+struct DrawEntry {
+  session::DrawStop stop;
+  std::uint32_t program = 0, framebuffer = 0;
+  int viewport[4] = {0, 0, 0, 0};
+  std::string reason;  // why its fragment shader cannot be debugged; empty if it can
+};
+
+struct StageSource {
+  session::Stage stage = session::Stage::fragment;
+  std::string reason;              // why it cannot be stepped through; empty if it can
+  int version = 0;                 // 0: could not be analysed
+  std::vector<std::string> lines;  // the user's text
+  std::vector<int> stops;          // lines with a statement to stop at, ascending
+};
+
+// The program stands at a draw.
+struct Stop {
+  DrawEntry draw;
+  session::DrawFacts facts;
+  std::vector<StageSource> stages;
+  bool restarted = false;  // the program was started again to get here
+};
+
+struct StackEntry {
+  std::string function;
+  int line = 0;  // where it stands: the present line, or that of the call
+};
+
+struct ScopeEntry {
+  std::string name;
+  std::string type;
+  frontend::Storage storage = frontend::Storage::local;
+  bool may_change = false;  // by the statement here, in some thread
+  bool large = false;       // not looked at unless asked for
+};
+
+// One way on from a branch.
+struct SideView {
+  std::string name;
+  std::uint64_t threads = 0;
+  bool picked = false;  // the picked thread takes it
+};
+
+struct LoopAround {
+  int line = 0;
+  int iteration = 0;
+};
+
+// Where the threads stand in the shader.
+struct Place {
+  session::Position position;
+  bool ended = false;
+  int line = 0, column = 0;        // of the statement; 0 where the threads have ended
+  std::string function, returned;  // returned: the function that has just come back, if any
+  std::vector<StackEntry> stack;   // innermost first
+  std::vector<LoopAround> loops;   // outermost first, those of the callers too
+  std::vector<ScopeEntry> scope;   // innermost last
+  std::vector<SideView> sides;     // at a branch
+  std::shared_ptr<const std::vector<session::TakenSide>> ways;  // the same with their masks
+  bool at_loop = false;                                         // the branch is a loop's condition
+};
+
+struct Look {
+  session::ThreadValues threads;
+  std::vector<std::vector<session::ComponentStatistics>> statistics;  // per value of `threads`
+  std::vector<std::pair<std::string, std::string>> refused;           // expression, why
+};
+using LookPtr = std::shared_ptr<const Look>;
+
+// One thread's recorded way.
+struct RunView {
+  session::ThreadRun run;
+  std::vector<std::optional<session::Position>> positions;  // a step each
+};
+using RunPtr = std::shared_ptr<const RunView>;
+
+// The draw's own colour outputs.
+struct TargetView {
+  int width = 0, height = 0;
+  std::vector<session::ColorOutput> outputs;
+};
+using TargetPtr = std::shared_ptr<const TargetView>;
+
+using LoopsPtr = std::shared_ptr<const session::LoopsReport>;
+
+struct ProfileView {
+  profiler::Profile profile;
+  std::optional<profiler::Comparison> comparison;
+  std::string subject;              // "raycaster, frame 0, draw 0, fragment shader, on llvmpipe"
+  std::vector<std::string> source;  // the shader's lines
+};
+using ProfilePtr = std::shared_ptr<const ProfileView>;
+
+using GlState = std::vector<std::pair<std::string, std::string>>;
+
+}  // namespace shadestep::gui

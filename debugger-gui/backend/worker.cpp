@@ -1,0 +1,52 @@
+#include "debugger-gui/backend/worker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace shadestep::gui {
+
+Worker::Worker() : thread_([this] { run(); }) {}
+
+Worker::~Worker() {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.clear();
+    ending_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+std::size_t Worker::post(const std::string& key, std::function<void()> task) {
+  std::size_t dropped = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!key.empty()) dropped = std::erase_if(tasks_, [&](const Task& one) { return one.key == key; });
+    tasks_.push_back({key, std::move(task)});
+  }
+  changed_.notify_all();
+  return dropped;
+}
+
+std::size_t Worker::clear() {
+  const std::lock_guard lock(mutex_);
+  const std::size_t dropped = tasks_.size();
+  tasks_.clear();
+  return dropped;
+}
+
+void Worker::run() {
+  while (true) {
+    Task task;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return ending_ || !tasks_.empty(); });
+      if (tasks_.empty()) return;
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    task.run();
+  }
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,40 @@
+// One thread that carries out what it is given, in order.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace shadestep::gui {
+
+class Worker {
+ public:
+  Worker();
+  ~Worker();  // finishes what is running, forgets the rest
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  // A task of the same key that still waits is dropped; those without a key all run. Tasks do not throw.
+  // Returns how many were dropped.
+  std::size_t post(const std::string& key, std::function<void()> task);
+  // Drops all that still wait; returns how many.
+  std::size_t clear();
+
+ private:
+  void run();
+
+  struct Task {
+    std::string key;
+    std::function<void()> run;
+  };
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Task> tasks_;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace shadestep::gui

@@ -1,0 +1,325 @@
+#include "debugger-gui/debugger.h"
+
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace shadestep::gui {
+
+using session::Outcome;
+
+Debugger::Debugger(QObject* parent) : QObject(parent) {
+  connect(&backend_, &Backend::failed, this, &Debugger::failed);
+}
+
+Debugger::~Debugger() {
+  if (process_end_) close(static_cast<int>(process_end_->socket()));
+}
+
+// ---- the program
+
+void Debugger::setProgram(Program program) {
+  program_ = program;
+  Q_EMIT programChanged();
+}
+
+void Debugger::leaveStop() {
+  stop_.reset();
+  place_.reset();
+  way_.clear();
+  values_ = previous_values_ = nullptr;
+  run_ = nullptr;
+  run_reason_.clear();
+  target_ = nullptr;
+  loops_ = nullptr;
+  gl_state_.clear();
+  process_end_.reset();
+  Q_EMIT stopChanged();
+}
+
+namespace {
+
+session::LaunchOptions optionsOf(const ProgramSpec& spec) {
+  session::LaunchOptions options;
+  for (const QString& word : spec.command) options.command.push_back(word.toStdString());
+  for (const QString& entry : spec.environment) {
+    const qsizetype equals = entry.indexOf('=');
+    if (equals > 0)
+      options.environment.emplace_back(entry.left(equals).toStdString(), entry.mid(equals + 1).toStdString());
+  }
+  options.working_directory = spec.directory.toStdString();
+  return options;
+}
+
+QString drawName(std::uint64_t frame, std::uint64_t draw) {
+  return QObject::tr("frame %1, draw %2").arg(frame).arg(draw);
+}
+
+}  // namespace
+
+void Debugger::start(const ProgramSpec& spec) {
+  if (program_ == Program::running) endProgram();
+  spec_ = spec;
+  draws_.clear();
+  fragments_ = {};
+  Q_EMIT drawsChanged();
+  leaveStop();
+  setProgram(Program::running);
+  backend_.ask(
+      tr("Starting %1").arg(spec.command.value(0)), "",
+      [options = optionsOf(spec), spec](Debuggee& debuggee) {
+        debuggee.start(options);
+        return debuggee.goTo(spec.frame, spec.draw);
+      },
+      [this](Stop stop) { arrived(std::move(stop)); });
+}
+
+void Debugger::goTo(std::uint64_t frame, std::uint64_t draw) {
+  leaveStop();
+  setProgram(Program::running);
+  backend_.ask(
+      tr("Running to %1").arg(drawName(frame, draw)), "goTo",
+      [frame, draw](Debuggee& debuggee) { return debuggee.goTo(frame, draw); },
+      [this](Stop stop) { arrived(std::move(stop)); });
+}
+
+void Debugger::nextDraw() {
+  if (program_ != Program::stopped) return;
+  leaveStop();
+  setProgram(Program::running);
+  backend_.ask(
+      tr("Running to the next draw"), "", [](Debuggee& debuggee) { return debuggee.nextDraw(); },
+      [this](Stop stop) { arrived(std::move(stop)); });
+}
+
+void Debugger::nextFrame() {
+  if (program_ == Program::stopped) goTo(stop_->draw.stop.frame + 1, stop_->draw.stop.draw);
+}
+
+void Debugger::listFrame() {
+  if (program_ != Program::stopped) return;
+  const session::DrawStop here = stop_->draw.stop;
+  leaveStop();
+  setProgram(Program::running);
+  backend_.ask(
+      tr("Listing the draws of frame %1").arg(here.frame), "",
+      [](Debuggee& debuggee) { return debuggee.listFrame(); },
+      [this, here](const std::vector<DrawEntry>& draws) {
+        for (const DrawEntry& draw : draws) addDraw(draw);
+        Q_EMIT drawsChanged();
+        goTo(here.frame, here.draw);
+      });
+}
+
+void Debugger::runToEnd() {
+  if (program_ != Program::stopped) return;
+  leaveStop();
+  setProgram(Program::running);
+  backend_.ask(
+      tr("The program runs"), "", [](Debuggee& debuggee) { return debuggee.runToEnd(); },
+      [this](int status) {
+        setProgram(Program::ended);
+        Q_EMIT message(tr("The program ended with status %1").arg(status), false);
+      });
+}
+
+void Debugger::endProgram() {
+  if (program_ == Program::none || program_ == Program::ended) return;
+  backend_.endProgramNow();
+  leaveStop();
+  backend_.ask(
+      tr("Ending the program"), "", [](Debuggee& debuggee) { debuggee.end(); },
+      [this] { setProgram(Program::ended); });
+}
+
+void Debugger::addDraw(const DrawEntry& entry) {
+  const auto key = [](const DrawEntry& one) { return std::pair(one.stop.frame, one.stop.draw); };
+  auto at = std::lower_bound(draws_.begin(), draws_.end(), entry,
+                             [&](const DrawEntry& a, const DrawEntry& b) { return key(a) < key(b); });
+  if (at != draws_.end() && key(*at) == key(entry)) {
+    *at = entry;
+  } else {
+    draws_.insert(at, entry);
+  }
+}
+
+void Debugger::arrived(Stop stop) {
+  addDraw(stop.draw);
+  Q_EMIT drawsChanged();
+  if (stop.restarted)
+    Q_EMIT message(tr("The program was started again to get back to %1")
+                       .arg(drawName(stop.draw.stop.frame, stop.draw.stop.draw)),
+                   false);
+  stop_ = std::move(stop);
+  watchProcess();
+  setProgram(Program::stopped);
+  Q_EMIT stopChanged();
+  if (stop_->draw.reason.empty()) {
+    restartShader();
+    backend_.ask(
+        tr("Reading the target"), "target", [](Debuggee& debuggee) { return debuggee.target(); },
+        [this](const TargetPtr& target) {
+          target_ = target;
+          Q_EMIT targetChanged();
+        });
+  } else {
+    Q_EMIT message(QString::fromStdString(stop_->draw.reason), true);
+  }
+}
+
+// The program may end, or be ended, while it stands at a draw.
+void Debugger::watchProcess() {
+  const int process = backend_.process();
+  if (process_end_) close(static_cast<int>(process_end_->socket()));
+  process_end_.reset();
+  const int descriptor = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+  if (descriptor < 0) return;
+  process_end_ = std::make_unique<QSocketNotifier>(descriptor, QSocketNotifier::Read);
+  connect(process_end_.get(), &QSocketNotifier::activated, this, [this, process] {
+    process_end_->setEnabled(false);
+    if (program_ != Program::stopped || backend_.process() != process) return;
+    siginfo_t info{};
+    waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT);
+    const QString how = info.si_code == CLD_EXITED ? tr("exited with status %1").arg(info.si_status)
+                                                   : tr("was ended by signal %1 (%2)")
+                                                         .arg(info.si_status)
+                                                         .arg(QString::fromUtf8(strsignal(info.si_status)));
+    endProgram();
+    Q_EMIT message(tr("The program %1. What was seen last stays here; 'Run' starts it again.").arg(how),
+                   true);
+  });
+}
+
+void Debugger::failed(const QString&, const QString& sentence, Outcome outcome) {
+  if (backend_.process() == 0) {
+    setProgram(outcome == Outcome::usage ? Program::none : Program::ended);
+  } else if (program_ == Program::running) {
+    setProgram(Program::between);
+  }
+  Q_EMIT message(sentence, true);
+}
+
+// ---- what there is
+
+bool Debugger::canStep() const {
+  return program_ == Program::stopped && place_.has_value();
+}
+
+bool Debugger::canGoBack() const {
+  return canStep() && (!way_.empty() || runStep() > 0);
+}
+
+const StageSource* Debugger::fragmentSource() const {
+  if (!stop_) return nullptr;
+  for (const StageSource& source : stop_->stages)
+    if (source.stage == session::Stage::fragment) return &source;
+  return nullptr;
+}
+
+std::optional<session::Check> Debugger::check() const {
+  if (!values_) return std::nullopt;
+  return values_->threads.check;
+}
+
+int Debugger::runStep() const {
+  if (!run_ || !place_) return -1;
+  for (std::size_t i = 0; i < run_->positions.size(); ++i)
+    if (run_->positions[i] == place_->position) return static_cast<int>(i);
+  return -1;
+}
+
+// ---- what the user marks
+
+void Debugger::pick(std::optional<Pixel> pixel) {
+  if (pixel == pixel_) return;
+  pixel_ = pixel;
+  run_ = nullptr;
+  run_reason_.clear();
+  Q_EMIT pixelChanged();
+  Q_EMIT runChanged();
+  if (program_ != Program::stopped || !stop_->draw.reason.empty()) return;
+  backend_.ask(
+      tr("Picking a thread"), "pick", [pixel](Debuggee& debuggee) { debuggee.pick(pixel); }, [] {});
+  followRun();
+}
+
+void Debugger::setBreakpoint(int line, std::optional<Breakpoint> breakpoint) {
+  if (breakpoint) {
+    breakpoints_[line] = *breakpoint;
+  } else {
+    breakpoints_.remove(line);
+  }
+  Q_EMIT breakpointsChanged();
+}
+
+void Debugger::toggleBreakpoint(int line) {
+  setBreakpoint(line, breakpoints_.contains(line) ? std::nullopt : std::optional(Breakpoint()));
+}
+
+void Debugger::addWatch(const QString& expression) {
+  const QString text = expression.trimmed();
+  if (text.isEmpty() || watches_.contains(text)) return;
+  watches_.push_back(text);
+  Q_EMIT watchesChanged();
+  lookAgain();
+}
+
+void Debugger::removeWatch(const QString& expression) {
+  if (watches_.removeAll(expression) > 0) Q_EMIT watchesChanged();
+}
+
+void Debugger::show(const PictureSource& picture) {
+  picture_ = picture;
+  Q_EMIT pictureChanged();
+  if (picture.kind == PictureSource::Kind::value) lookAgain();
+}
+
+// ---- all of the draw
+
+void Debugger::askLoops() {
+  if (program_ != Program::stopped) return;
+  backend_.ask(
+      tr("Counting iterations"), "loops", [](Debuggee& debuggee) { return debuggee.loops(); },
+      [this](const LoopsPtr& loops) {
+        loops_ = loops;
+        Q_EMIT loopsChanged();
+      });
+}
+
+void Debugger::askProfile(const CostRequest& request) {
+  if (program_ != Program::stopped) return;
+  backend_.ask(
+      tr("Measuring costs"), "profile",
+      [this, request](Debuggee& debuggee) {
+        return debuggee.profile(request, [this](double share) { backend_.report(share); });
+      },
+      [this](const ProfilePtr& profile) {
+        profile_ = profile;
+        Q_EMIT profileChanged();
+      });
+}
+
+void Debugger::askGlState() {
+  if (program_ != Program::stopped) return;
+  backend_.ask(
+      tr("Reading the GL state"), "state", [](Debuggee& debuggee) { return debuggee.glState(); },
+      [this](const GlState& state) {
+        gl_state_ = state;
+        Q_EMIT glStateChanged();
+      });
+}
+
+void Debugger::setFragments(const session::FragmentChoice& choice) {
+  if (program_ != Program::stopped || !place_) return;
+  const session::Position position = place_->position;
+  askPlace(tr("Choosing fragments"), [choice, position](Debuggee& debuggee) {
+    debuggee.chooseFragments(choice);
+    return debuggee.moveTo(position);
+  });
+  fragments_ = choice;
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,171 @@
+// The window's state: which program, which draw, where in the shader, which pixel, which values. The panels
+// read it, ask it for things, and hear when something has changed. Lives on the main thread and never waits.
+#pragma once
+
+#include <QMap>
+#include <QObject>
+#include <QSocketNotifier>
+#include <QStringList>
+#include <optional>
+
+#include "debugger-gui/backend/backend.h"
+
+namespace shadestep::gui {
+
+// What is started, as the start dialog and the session file have it.
+struct ProgramSpec {
+  QStringList command;
+  QStringList environment;  // NAME=value, laid over the window's own
+  QString directory;
+  std::uint64_t frame = 0, draw = 0;  // the draw to stop at first
+};
+
+struct Breakpoint {
+  bool enabled = true;
+  QString condition;  // a bool expression of the picked thread's values; empty = always
+  int ignore = 0;     // hits passed over first
+};
+
+// Which picture the picture view shows.
+struct PictureSource {
+  enum class Kind { target, value, outcome, iterations, cost, difference } kind = Kind::target;
+  QString name;   // value: the expression
+  int index = 0;  // target: the output; iterations: the loop
+  bool operator==(const PictureSource&) const = default;
+};
+
+class Debugger : public QObject {
+  Q_OBJECT
+ public:
+  enum class Program {
+    none,
+    running,  // towards a draw, or its own end
+    stopped,  // at a draw
+    between,  // behind the last draw of a frame
+    ended,
+  };
+
+  explicit Debugger(QObject* parent = nullptr);
+  ~Debugger() override;
+
+  // ---- what there is
+  Program program() const { return program_; }
+  const ProgramSpec& spec() const { return spec_; }
+  const std::optional<Stop>& stop() const { return stop_; }
+  const QList<DrawEntry>& draws() const { return draws_; }
+  const std::optional<Place>& place() const { return place_; }
+  const LookPtr& values() const { return values_; }
+  const LookPtr& previousValues() const { return previous_values_; }  // at the place before
+  const std::optional<Pixel>& pixel() const { return pixel_; }
+  const RunPtr& run() const { return run_; }
+  const QString& runReason() const { return run_reason_; }  // why there is no run
+  int runStep() const;                                      // the place's step in the run; -1: not on it
+  const TargetPtr& target() const { return target_; }
+  const LoopsPtr& loops() const { return loops_; }
+  const ProfilePtr& profile() const { return profile_; }
+  const GlState& glState() const { return gl_state_; }
+  const session::FragmentChoice& fragments() const { return fragments_; }
+  const QMap<int, Breakpoint>& breakpoints() const { return breakpoints_; }  // by line
+  const QStringList& watches() const { return watches_; }
+  const PictureSource& picture() const { return picture_; }
+  std::optional<session::Check> check() const;  // of the values shown
+  bool idle() const { return backend_.idle(); }
+  Backend& backend() { return backend_; }
+  bool canStep() const;
+  bool canGoBack() const;
+  const StageSource* fragmentSource() const;
+
+  // ---- the program
+  void start(const ProgramSpec&);
+  void goTo(std::uint64_t frame, std::uint64_t draw);
+  void nextDraw();
+  void nextFrame();
+  void listFrame();
+  void runToEnd();
+  void endProgram();
+  void cancel() { backend_.cancel(); }
+
+  // ---- in the shader
+  void move(Move);
+  void toLine(int line);
+  void choose(const QString& side);
+  void restartShader();
+  void setIteration(std::size_t loop, int iteration);  // loop: index into Place::loops
+  void moveToStep(int step);                           // of the picked thread's run
+  void resume(bool backwards);                         // to the next breakpoint on the picked thread's way
+  void back();  // to where the last step came from; along the run if there is one
+  void backInto();
+  void backOut();
+
+  void pick(std::optional<Pixel>);
+  void setBreakpoint(int line, std::optional<Breakpoint>);
+  void toggleBreakpoint(int line);
+  void addWatch(const QString& expression);
+  void removeWatch(const QString& expression);
+  void show(const PictureSource&);
+
+  // ---- all of the draw
+  void askLoops();
+  void askProfile(const CostRequest&);
+  void askGlState();
+  void setFragments(const session::FragmentChoice&);
+
+  // ---- the session file: program, draw, pixel, breakpoints, watches
+  QByteArray saved() const;
+  void restore(const QByteArray&);  // starts the program; throws session::Error{usage} for another file
+
+ Q_SIGNALS:
+  void programChanged();
+  void drawsChanged();
+  void stopChanged();
+  void placeChanged();
+  void valuesChanged();
+  void pixelChanged();
+  void runChanged();
+  void targetChanged();
+  void loopsChanged();
+  void profileChanged();
+  void glStateChanged();
+  void breakpointsChanged();
+  void watchesChanged();
+  void pictureChanged();
+  void message(const QString& sentence, bool is_error);
+
+ private:
+  void leaveStop();
+  void setProgram(Program);
+  void arrived(Stop);
+  void placed(Place);
+  void lookAgain();
+  void followRun();
+  void failed(const QString& what, const QString& sentence, session::Outcome);
+  void watchProcess();
+  void askPlace(const QString& what, std::function<Place(Debuggee&)> work);
+  void goBackTo(int deepest);
+  void backAlongWay();
+  QStringList expressions() const;
+  void addDraw(const DrawEntry&);
+
+  Backend backend_;
+  Program program_ = Program::none;
+  ProgramSpec spec_;
+  std::optional<Stop> stop_;
+  QList<DrawEntry> draws_;
+  std::optional<Place> place_;
+  std::vector<session::Position> way_;  // positions before the present one
+  LookPtr values_, previous_values_;
+  std::optional<Pixel> pixel_;
+  RunPtr run_;
+  QString run_reason_;
+  TargetPtr target_;
+  LoopsPtr loops_;
+  ProfilePtr profile_;
+  GlState gl_state_;
+  session::FragmentChoice fragments_;
+  QMap<int, Breakpoint> breakpoints_;
+  QStringList watches_;
+  PictureSource picture_;
+  std::unique_ptr<QSocketNotifier> process_end_;
+};
+
+}  // namespace shadestep::gui

@@ -1,0 +1,276 @@
+// The debugger's steps: forwards by the stepper, backwards along the way that was gone, and both ways along
+// the recorded way of the picked thread.
+#include <QRegularExpression>
+#include <algorithm>
+#include <limits>
+
+#include "debugger-gui/debugger.h"
+#include "session/values.h"
+
+namespace shadestep::gui {
+
+using session::Error;
+using session::Outcome;
+
+void Debugger::askPlace(const QString& what, std::function<Place(Debuggee&)> work) {
+  if (program_ != Program::stopped) return;
+  backend_.ask(what, "", std::move(work), [this](Place place) { placed(std::move(place)); });
+}
+
+void Debugger::placed(Place place) {
+  if (place_ && !place_->ended && place_->position != place.position) {
+    way_.push_back(place_->position);
+    previous_values_ = values_;
+  }
+  place_ = std::move(place);
+  Q_EMIT placeChanged();
+  lookAgain();
+}
+
+QStringList Debugger::expressions() const {
+  QStringList names = watches_;
+  if (picture_.kind == PictureSource::Kind::value) names.push_back(picture_.name);
+  for (const ScopeEntry& entry : place_->scope)
+    if (!entry.large) names.push_back(QString::fromStdString(entry.name));
+  names.removeDuplicates();
+  return names;
+}
+
+void Debugger::lookAgain() {
+  if (program_ != Program::stopped || !place_) return;
+  std::vector<std::string> names;
+  for (const QString& name : expressions()) names.push_back(name.toStdString());
+  backend_.ask(
+      tr("Reading values"), "look",
+      [names, position = place_->position](Debuggee& debuggee) {
+        return std::pair(position, debuggee.look(names));
+      },
+      [this](const std::pair<session::Position, LookPtr>& found) {
+        if (!place_ || place_->position != found.first) return;
+        values_ = found.second;
+        Q_EMIT valuesChanged();
+      });
+}
+
+void Debugger::move(Move move) {
+  askPlace(tr("Stepping"), [move](Debuggee& debuggee) { return debuggee.move(move); });
+}
+
+void Debugger::toLine(int line) {
+  askPlace(tr("Running to line %1").arg(line), [line](Debuggee& debuggee) { return debuggee.toLine(line); });
+}
+
+void Debugger::choose(const QString& side) {
+  askPlace(tr("Following %1").arg(side),
+           [name = side.toStdString()](Debuggee& debuggee) { return debuggee.choose(name); });
+}
+
+void Debugger::restartShader() {
+  way_.clear();
+  place_.reset();
+  values_ = previous_values_ = nullptr;
+  askPlace(tr("Going to the start of main"), [pixel = pixel_](Debuggee& debuggee) {
+    debuggee.pick(pixel);
+    return debuggee.restartShader();
+  });
+  if (pixel_ && !run_) followRun();
+}
+
+void Debugger::setIteration(std::size_t loop, int iteration) {
+  if (!canStep() || loop >= place_->position.iterations.size()) return;
+  session::Position position = place_->position;
+  position.iterations[loop] = iteration;
+  for (std::size_t i = loop + 1; i < position.iterations.size(); ++i) position.iterations[i] = 0;
+  backend_.ask(
+      tr("Going to iteration %1").arg(iteration), "iteration",
+      [position](Debuggee& debuggee) { return debuggee.moveTo(position); },
+      [this](Place place) { placed(std::move(place)); });
+}
+
+// ---- along the picked thread's way
+
+void Debugger::followRun() {
+  if (!pixel_ || program_ != Program::stopped) return;
+  backend_.ask(
+      tr("Recording the picked thread"), "run",
+      [pixel = *pixel_](Debuggee& debuggee) -> std::pair<RunPtr, QString> {
+        debuggee.pick(pixel);
+        try {
+          return {debuggee.followPicked(), {}};
+        } catch (const Error& error) {
+          if (error.outcome() == Outcome::ended || error.outcome() == Outcome::failed) throw;
+          return {nullptr, QString::fromStdString(error.what())};
+        }
+      },
+      [this](const std::pair<RunPtr, QString>& found) {
+        run_ = found.first;
+        run_reason_ = found.second;
+        Q_EMIT runChanged();
+      });
+}
+
+void Debugger::moveToStep(int step) {
+  if (!canStep() || !run_ || step < 0) return;
+  // Steps that are no place of their own stand for the next one that is.
+  for (auto i = static_cast<std::size_t>(step); i < run_->positions.size(); ++i) {
+    if (!run_->positions[i]) continue;
+    askPlace(tr("Going to step %1").arg(i),
+             [position = *run_->positions[i]](Debuggee& debuggee) { return debuggee.moveTo(position); });
+    return;
+  }
+}
+
+namespace {
+
+// A breakpoint's condition: NAME, or NAME OPERATOR NUMBER.
+struct Condition {
+  std::string name;
+  QString comparison;
+  double number = 0;
+};
+
+std::optional<Condition> parse(const QString& text) {
+  static const QRegularExpression kForm(
+      R"(^\s*(!?)\s*([A-Za-z_][\w.\[\]]*)\s*(?:(==|!=|<=|>=|<|>)\s*([-+\d.eE]+|true|false))?\s*$)");
+  const QRegularExpressionMatch match = kForm.match(text);
+  if (!match.hasMatch()) return std::nullopt;
+  Condition condition{match.captured(2).toStdString(), match.captured(3), 0};
+  if (condition.comparison.isEmpty()) {
+    condition.comparison = match.captured(1).isEmpty() ? "!=" : "==";
+    return condition;
+  }
+  if (!match.captured(1).isEmpty()) return std::nullopt;
+  const QString number = match.captured(4);
+  bool is_number = true;
+  condition.number = number == "true" ? 1 : number == "false" ? 0 : number.toDouble(&is_number);
+  return is_number ? std::optional(condition) : std::nullopt;
+}
+
+bool holds(const Condition& condition, double value) {
+  if (condition.comparison == "==") return value == condition.number;
+  if (condition.comparison == "!=") return value != condition.number;
+  if (condition.comparison == "<=") return value <= condition.number;
+  if (condition.comparison == ">=") return value >= condition.number;
+  if (condition.comparison == "<") return value < condition.number;
+  return value > condition.number;
+}
+
+struct Candidate {
+  session::Position position;
+  std::optional<Condition> condition;
+};
+
+bool holdsAt(Debuggee& debuggee, const Candidate& candidate, Pixel pixel) {
+  if (!candidate.condition) return true;
+  const LookPtr look = debuggee.look({candidate.condition->name});
+  if (look->threads.values.empty())
+    throw Error(Outcome::nothing_matches,
+                "the condition cannot be evaluated: " + look->refused.front().second);
+  const session::ThreadValues& threads = look->threads;
+  const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(threads.width) +
+                            static_cast<std::size_t>(pixel.x);
+  const session::WatchedValues& value = threads.values.front();
+  if (!threads.reachedAt(index) || !value.type.isScalar()) return false;
+  return holds(*candidate.condition, session::componentAsDouble(value.type.basic, value.at(index)));
+}
+
+}  // namespace
+
+void Debugger::resume(bool backwards) {
+  if (!canStep()) return;
+  if (!run_) {
+    Q_EMIT message(run_reason_.isEmpty()
+                       ? tr("Pick a pixel in the picture first: its thread's way is followed")
+                       : run_reason_,
+                   true);
+    return;
+  }
+  const int here = runStep();
+  std::vector<Candidate> candidates;
+  QMap<int, int> visits;
+  for (int i = 0; i < static_cast<int>(run_->positions.size()); ++i) {
+    const session::Step& step = run_->run.steps[static_cast<std::size_t>(i)];
+    const auto& position = run_->positions[static_cast<std::size_t>(i)];
+    const auto breakpoint = breakpoints_.constFind(step.line);
+    if (!position || breakpoint == breakpoints_.constEnd() || !breakpoint->enabled) continue;
+    if (visits[step.line]++ < breakpoint->ignore) continue;
+    if (backwards ? i >= here : i <= here) continue;
+    std::optional<Condition> condition;
+    if (!breakpoint->condition.isEmpty()) {
+      condition = parse(breakpoint->condition);
+      if (!condition) {
+        Q_EMIT message(tr("The condition at line %1 is not NAME, !NAME or NAME compared with a number: %2")
+                           .arg(step.line)
+                           .arg(breakpoint->condition),
+                       true);
+        return;
+      }
+    }
+    candidates.push_back({*position, condition});
+  }
+  if (backwards) std::reverse(candidates.begin(), candidates.end());
+  const session::Position from = place_->position;
+  backend_.ask(
+      backwards ? tr("Running back to a breakpoint") : tr("Running to a breakpoint"), "",
+      [candidates, from, pixel = *pixel_](Debuggee& debuggee) {
+        for (const Candidate& candidate : candidates) {
+          Place place = debuggee.moveTo(candidate.position);
+          if (holdsAt(debuggee, candidate, pixel)) return std::pair(true, std::move(place));
+        }
+        return std::pair(false, debuggee.moveTo(from));
+      },
+      [this, backwards](std::pair<bool, Place> found) {
+        placed(std::move(found.second));
+        if (!found.first)
+          Q_EMIT message(backwards ? tr("No breakpoint on the picked thread's way before this place")
+                                   : tr("No breakpoint on the rest of the picked thread's way"),
+                         false);
+      });
+}
+
+// The last step before this one that the thread was at, no deeper than `depth` calls; at most the whole run.
+void Debugger::goBackTo(int deepest) {
+  const int here = runStep();
+  for (int i = here - 1; i >= 0; --i) {
+    const auto& position = run_->positions[static_cast<std::size_t>(i)];
+    if (!position || run_->run.steps[static_cast<std::size_t>(i)].depth > deepest) continue;
+    if (*position == place_->position) continue;
+    moveToStep(i);
+    return;
+  }
+}
+
+void Debugger::back() {
+  if (!canGoBack()) return;
+  if (const int here = runStep(); here > 0)
+    return goBackTo(run_->run.steps[static_cast<std::size_t>(here)].depth);
+  backAlongWay();
+}
+
+void Debugger::backInto() {
+  if (!canGoBack()) return;
+  if (runStep() > 0) return goBackTo(std::numeric_limits<int>::max());
+  backAlongWay();
+}
+
+void Debugger::backOut() {
+  if (!canGoBack()) return;
+  if (const int here = runStep(); here > 0)
+    return goBackTo(run_->run.steps[static_cast<std::size_t>(here)].depth - 1);
+  backAlongWay();
+}
+
+// Without a recording: to where the last step came from.
+void Debugger::backAlongWay() {
+  if (way_.empty()) return;
+  const session::Position to = way_.back();
+  way_.pop_back();
+  backend_.ask(
+      tr("Stepping back"), "", [to](Debuggee& debuggee) { return debuggee.moveTo(to); },
+      [this](Place place) {
+        placed(std::move(place));
+        if (!way_.empty()) way_.pop_back();  // the place that was gone back from
+      });
+}
+
+}  // namespace shadestep::gui

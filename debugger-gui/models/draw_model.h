@@ -1,0 +1,41 @@
+// Frames and their draws, as far as they have been visited.
+#pragma once
+
+#include <QAbstractItemModel>
+
+#include "debugger-gui/debugger.h"
+
+namespace shadestep::gui {
+
+class DrawModel : public QAbstractItemModel {
+  Q_OBJECT
+ public:
+  enum Column { kDraw, kCall, kCount, kProgram, kTarget, kColumns };
+
+  explicit DrawModel(const Debugger&, QObject* parent = nullptr);
+  void refresh();
+
+  const DrawEntry* drawAt(const QModelIndex&) const;
+  QModelIndex indexOf(std::uint64_t frame, std::uint64_t draw) const;
+
+  QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
+  QModelIndex parent(const QModelIndex&) const override;
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& = {}) const override { return kColumns; }
+  QVariant data(const QModelIndex&, int role) const override;
+  QVariant headerData(int section, Qt::Orientation, int role) const override;
+
+ private:
+  struct Frame {
+    std::uint64_t number = 0;
+    qsizetype first = 0, count = 0;  // among draws_
+    bool operator==(const Frame&) const = default;
+  };
+  bool isHere(const DrawEntry&) const;
+
+  const Debugger& debugger_;
+  QList<DrawEntry> draws_;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace shadestep::gui

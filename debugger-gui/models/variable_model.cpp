@@ -1,0 +1,273 @@
+#include "debugger-gui/models/variable_model.h"
+
+#include <QFont>
+#include <algorithm>
+
+#include "debugger-gui/style/theme.h"
+#include "profiler/pictures/files.h"
+#include "session/values.h"
+
+namespace shadestep::gui {
+
+struct VariableModel::Node {
+  QString name;
+  QString type;
+  Target target;
+  QString refused;  // why there is no value
+  Node* parent = nullptr;
+  int row = 0;
+  std::vector<std::unique_ptr<Node>> children;
+
+  Node* add(QString child_name) {
+    auto child = std::make_unique<Node>();
+    child->name = std::move(child_name);
+    child->parent = this;
+    child->row = static_cast<int>(children.size());
+    children.push_back(std::move(child));
+    return children.back().get();
+  }
+  bool sameShape(const Node& other) const {
+    if (name != other.name || type != other.type || children.size() != other.children.size()) return false;
+    for (std::size_t i = 0; i < children.size(); ++i)
+      if (!children[i]->sameShape(*other.children[i])) return false;
+    return true;
+  }
+  void takeOver(Node& other) {
+    refused = other.refused;
+    for (std::size_t i = 0; i < children.size(); ++i) children[i]->takeOver(*other.children[i]);
+  }
+};
+
+namespace {
+
+const char* groupOf(frontend::Storage storage) {
+  using frontend::Storage;
+  switch (storage) {
+    case Storage::local:
+    case Storage::parameter:
+      return QT_TRANSLATE_NOOP("VariableModel", "Local");
+    case Storage::global:
+    case Storage::constant:
+    case Storage::shared:
+      return QT_TRANSLATE_NOOP("VariableModel", "Global");
+    case Storage::out:
+      return QT_TRANSLATE_NOOP("VariableModel", "Outputs");
+    default:
+      return QT_TRANSLATE_NOOP("VariableModel", "Inputs and uniforms");
+  }
+}
+
+}  // namespace
+
+VariableModel::VariableModel(const Debugger& debugger, QObject* parent)
+    : QAbstractItemModel(parent), debugger_(debugger), root_(std::make_unique<Node>()) {}
+
+VariableModel::~VariableModel() = default;
+
+std::unique_ptr<VariableModel::Node> VariableModel::build() const {
+  auto root = std::make_unique<Node>();
+  const LookPtr& look = debugger_.values();
+  const auto add = [&](Node* group, const QString& expression, const QString& type, bool is_watch) {
+    Node* node = group->add(expression);
+    node->target = {expression, expression, -1, is_watch};
+    node->type = type;
+    if (!look) return;
+    for (const auto& [refused, reason] : look->refused)
+      if (QString::fromStdString(refused) == expression) node->refused = QString::fromStdString(reason);
+    const session::WatchedValues* value = valueOf(look, *node);
+    if (value == nullptr) return;
+    node->type = QString::fromStdString(frontend::glslName(value->type));
+    const auto components = frontend::components(value->type);
+    if (components.size() < 2) return;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      Node* part = node->add(QString::fromStdString(components[i].access));
+      part->target = {expression + part->name, expression, static_cast<int>(i), is_watch};
+    }
+  };
+  if (!debugger_.watches().isEmpty()) {
+    Node* group = root->add(tr("Watches"));
+    for (const QString& watch : debugger_.watches()) add(group, watch, {}, true);
+  }
+  if (!debugger_.place()) return root;
+  for (const char* name : {"Local", "Global", "Outputs", "Inputs and uniforms"}) {
+    Node* group = nullptr;
+    const auto& scope = debugger_.place()->scope;
+    for (auto entry = scope.rbegin(); entry != scope.rend(); ++entry) {
+      if (std::string_view(groupOf(entry->storage)) != name) continue;
+      if (group == nullptr) group = root->add(tr(name));
+      add(group, QString::fromStdString(entry->name), QString::fromStdString(entry->type), false);
+    }
+  }
+  return root;
+}
+
+void VariableModel::refresh() {
+  auto next = build();
+  if (root_->sameShape(*next)) {
+    root_->takeOver(*next);
+    for (int row = 0; row < rowCount(); ++row) {
+      const QModelIndex group = index(row, 0);
+      const int rows = rowCount(group);
+      if (rows > 0) Q_EMIT dataChanged(index(0, 0, group), index(rows - 1, kColumns - 1, group));
+      for (int i = 0; i < rows; ++i) {
+        const QModelIndex variable = index(i, 0, group);
+        if (const int parts = rowCount(variable); parts > 0)
+          Q_EMIT dataChanged(index(0, 0, variable), index(parts - 1, kColumns - 1, variable));
+      }
+    }
+    return;
+  }
+  beginResetModel();
+  root_ = std::move(next);
+  endResetModel();
+}
+
+// ---- the tree
+
+QModelIndex VariableModel::index(int row, int column, const QModelIndex& parent) const {
+  const Node* node = parent.isValid() ? static_cast<const Node*>(parent.internalPointer()) : root_.get();
+  if (row < 0 || row >= static_cast<int>(node->children.size())) return {};
+  return createIndex(row, column, node->children[static_cast<std::size_t>(row)].get());
+}
+
+QModelIndex VariableModel::parent(const QModelIndex& child) const {
+  if (!child.isValid()) return {};
+  Node* parent = static_cast<const Node*>(child.internalPointer())->parent;
+  return parent == nullptr || parent == root_.get() ? QModelIndex() : createIndex(parent->row, 0, parent);
+}
+
+int VariableModel::rowCount(const QModelIndex& parent) const {
+  if (parent.column() > 0) return 0;
+  const Node* node = parent.isValid() ? static_cast<const Node*>(parent.internalPointer()) : root_.get();
+  return static_cast<int>(node->children.size());
+}
+
+VariableModel::Target VariableModel::targetAt(const QModelIndex& index) const {
+  return index.isValid() ? static_cast<const Node*>(index.internalPointer())->target : Target();
+}
+
+QString VariableModel::textOf(const QModelIndex& row) const {
+  const Node& node = *static_cast<const Node*>(row.internalPointer());
+  return node.target.expression.isEmpty() ? node.name : node.target.expression + " = " + valueText(node);
+}
+
+// ---- what stands in it
+
+const session::WatchedValues* VariableModel::valueOf(const LookPtr& look, const Node& node) const {
+  if (!look) return nullptr;
+  const std::string name = node.target.variable.toStdString();
+  const auto found = std::find_if(look->threads.values.begin(), look->threads.values.end(),
+                                  [&](const session::WatchedValues& value) { return value.name == name; });
+  return found == look->threads.values.end() ? nullptr : &*found;
+}
+
+std::optional<std::size_t> VariableModel::pickedIndex() const {
+  const LookPtr& look = debugger_.values();
+  const auto& pixel = debugger_.pixel();
+  if (!look || !pixel || pixel->x >= look->threads.width || pixel->y >= look->threads.height)
+    return std::nullopt;
+  return static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(look->threads.width) +
+         static_cast<std::size_t>(pixel->x);
+}
+
+QString VariableModel::valueText(const Node& node) const {
+  if (!node.refused.isEmpty()) return tr("not here");
+  const session::WatchedValues* value = valueOf(debugger_.values(), node);
+  const auto pixel = pickedIndex();
+  if (value == nullptr || !pixel) return {};
+  if (!debugger_.values()->threads.reachedAt(*pixel)) return tr("does not get here");
+  if (node.target.component < 0) return QString::fromStdString(session::formatValue(value->valueAt(*pixel)));
+  const std::uint32_t* word = value->at(*pixel);
+  const auto components = frontend::components(value->type);
+  for (int i = 0; i < node.target.component; ++i)
+    word += session::wordsPerComponent(components[static_cast<std::size_t>(i)].basic);
+  return QString::fromStdString(
+      session::formatComponent(components[static_cast<std::size_t>(node.target.component)].basic, word));
+}
+
+bool VariableModel::changed(const Node& node) const {
+  const session::WatchedValues* now = valueOf(debugger_.values(), node);
+  const session::WatchedValues* before = valueOf(debugger_.previousValues(), node);
+  const auto pixel = pickedIndex();
+  if (now == nullptr || before == nullptr || !pixel || now->type != before->type) return false;
+  if (!debugger_.values()->threads.reachedAt(*pixel) ||
+      !debugger_.previousValues()->threads.reachedAt(*pixel))
+    return false;
+  std::size_t first = 0;
+  std::size_t count = now->stride;
+  if (node.target.component >= 0) {
+    const auto components = frontend::components(now->type);
+    for (int i = 0; i < node.target.component; ++i)
+      first +=
+          static_cast<std::size_t>(session::wordsPerComponent(components[static_cast<std::size_t>(i)].basic));
+    count = static_cast<std::size_t>(
+        session::wordsPerComponent(components[static_cast<std::size_t>(node.target.component)].basic));
+  }
+  return !std::equal(now->at(*pixel) + first, now->at(*pixel) + first + count, before->at(*pixel) + first);
+}
+
+QVariant VariableModel::range(const Node& node, bool high) const {
+  const LookPtr& look = debugger_.values();
+  const session::WatchedValues* value = valueOf(look, node);
+  if (value == nullptr) return {};
+  const auto& statistics = look->statistics[static_cast<std::size_t>(value - look->threads.values.data())];
+  const std::size_t component =
+      node.target.component < 0 ? 0 : static_cast<std::size_t>(node.target.component);
+  if ((node.target.component < 0 && statistics.size() != 1) || statistics[component].finite == 0) return {};
+  const double number = high ? statistics[component].max : statistics[component].min;
+  return QString::fromStdString(profiler::exactText(number));
+}
+
+QVariant VariableModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const Node& node = *static_cast<const Node*>(index.internalPointer());
+  const bool is_group = node.target.expression.isEmpty();
+  if (role == Qt::DisplayRole) {
+    switch (index.column()) {
+      case kName:
+        return node.name;
+      case kValue:
+        return is_group ? QString() : valueText(node);
+      case kMin:
+      case kMax:
+        return is_group ? QVariant() : range(node, index.column() == kMax);
+      default:
+        return node.type;
+    }
+  }
+  if (role == Qt::FontRole &&
+      (index.column() == kValue || index.column() == kMin || index.column() == kMax)) {
+    QFont font = monospaced();
+    font.setBold(!is_group && index.column() == kValue && changed(node));
+    return font;
+  }
+  if (role == Qt::FontRole && (is_group || changed(node))) {
+    QFont font;
+    font.setBold(true);
+    return font;
+  }
+  if (role == Qt::ForegroundRole && index.column() != kName && index.column() != kValue) return theme().faint;
+  if (role == Qt::ForegroundRole && is_group) return theme().faint;
+  if (role == Qt::ToolTipRole && !node.refused.isEmpty()) return node.refused;
+  return {};
+}
+
+QVariant VariableModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  switch (section) {
+    case kName:
+      return tr("Name");
+    case kValue: {
+      const auto& pixel = debugger_.pixel();
+      return pixel ? tr("Value at %1, %2").arg(pixel->x).arg(pixel->y) : tr("Value (pick a pixel)");
+    }
+    case kMin:
+      return tr("Least of all");
+    case kMax:
+      return tr("Greatest of all");
+    default:
+      return tr("Type");
+  }
+}
+
+}  // namespace shadestep::gui

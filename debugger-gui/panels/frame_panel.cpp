@@ -1,0 +1,71 @@
+#include "debugger-gui/panels/frame_panel.h"
+
+#include <QHeaderView>
+#include <QMenu>
+#include <QVBoxLayout>
+
+namespace shadestep::gui {
+
+FramePanel::FramePanel(Debugger& debugger, QWidget* parent)
+    : QWidget(parent), debugger_(debugger), model_(debugger), search_(new QLineEdit), tree_(new QTreeView) {
+  filter_.setSourceModel(&model_);
+  filter_.setRecursiveFilteringEnabled(true);
+  filter_.setFilterKeyColumn(-1);
+  filter_.setFilterCaseSensitivity(Qt::CaseInsensitive);
+  search_->setPlaceholderText(tr("Search the draws"));
+  search_->setClearButtonEnabled(true);
+  tree_->setModel(&filter_);
+  tree_->setUniformRowHeights(true);
+  tree_->setRootIsDecorated(true);
+  tree_->setIndentation(12);
+  tree_->setContextMenuPolicy(Qt::CustomContextMenu);
+  tree_->header()->setStretchLastSection(true);
+  for (const auto& [column, width] : {std::pair{0, 74}, {1, 118}, {2, 92}, {3, 58}})
+    tree_->setColumnWidth(column, width);
+  tree_->setAccessibleName(tr("Frames and draws"));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(6, 0, 6, 0);
+  head->addWidget(search_);
+  column->addLayout(head);
+  column->addWidget(tree_);
+
+  connect(search_, &QLineEdit::textChanged, &filter_, &QSortFilterProxyModel::setFilterFixedString);
+  connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {
+    if (const DrawEntry* draw = drawAt(index)) debugger_.goTo(draw->stop.frame, draw->stop.draw);
+  });
+  connect(tree_, &QTreeView::customContextMenuRequested, this, &FramePanel::showMenu);
+  connect(&debugger_, &Debugger::drawsChanged, this, &FramePanel::refresh);
+  connect(&debugger_, &Debugger::stopChanged, this, &FramePanel::refresh);
+}
+
+const DrawEntry* FramePanel::drawAt(const QModelIndex& shown) const {
+  return model_.drawAt(filter_.mapToSource(shown));
+}
+
+void FramePanel::refresh() {
+  model_.refresh();
+  tree_->expandAll();
+  if (!debugger_.stop()) return;
+  const session::DrawStop& stop = debugger_.stop()->draw.stop;
+  const QModelIndex here = filter_.mapFromSource(model_.indexOf(stop.frame, stop.draw));
+  tree_->setCurrentIndex(here);
+  tree_->scrollTo(here);
+}
+
+void FramePanel::showMenu(const QPoint& position) {
+  const DrawEntry* draw = drawAt(tree_->indexAt(position));
+  if (draw == nullptr) return;
+  const session::DrawStop stop = draw->stop;
+  QMenu menu(this);
+  menu.addAction(tr("Go to this draw"), this, [this, stop] { debugger_.goTo(stop.frame, stop.draw); });
+  menu.addAction(tr("Go to this draw in the next frame"), this,
+                 [this, stop] { debugger_.goTo(stop.frame + 1, stop.draw); });
+  menu.addSeparator();
+  menu.addAction(tr("List all draws of the present frame"), this, [this] { debugger_.listFrame(); });
+  menu.exec(tree_->viewport()->mapToGlobal(position));
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,29 @@
+// The tree of frames and draws, with search.
+#pragma once
+
+#include <QLineEdit>
+#include <QSortFilterProxyModel>
+#include <QTreeView>
+
+#include "debugger-gui/models/draw_model.h"
+
+namespace shadestep::gui {
+
+class FramePanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit FramePanel(Debugger&, QWidget* parent = nullptr);
+
+ private:
+  void refresh();
+  void showMenu(const QPoint&);
+  const DrawEntry* drawAt(const QModelIndex& shown) const;
+
+  Debugger& debugger_;
+  DrawModel model_;
+  QSortFilterProxyModel filter_;
+  QLineEdit* search_;
+  QTreeView* tree_;
+};
+
+}  // namespace shadestep::gui

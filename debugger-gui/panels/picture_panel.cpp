@@ -1,0 +1,284 @@
+#include "debugger-gui/panels/picture_panel.h"
+
+#include <QFileDialog>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "debugger-gui/style/icons.h"
+#include "debugger-gui/style/theme.h"
+#include "profiler/pictures/ticks.h"
+#include "session/text.h"
+
+namespace shadestep::gui {
+namespace {
+
+using Kind = PictureSource::Kind;
+
+QString number(double value) {
+  return QString::number(value, 'g', 5);
+}
+
+QPixmap swatch(QRgb color) {
+  QPixmap pixmap(11, 11);
+  pixmap.fill(QColor::fromRgb(color));
+  return pixmap;
+}
+
+QToolButton* button(const QString& icon_name, const QString& tip) {
+  auto* made = new QToolButton;
+  made->setIcon(icon(icon_name));
+  made->setToolTip(tip);
+  made->setAutoRaise(true);
+  return made;
+}
+
+}  // namespace
+
+PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
+    : QWidget(parent),
+      debugger_(debugger),
+      sources_(new QComboBox),
+      check_(new CheckBadge),
+      view_(new PictureView),
+      channels_(new QComboBox),
+      low_(new QLineEdit),
+      high_(new QLineEdit),
+      automatic_(new QToolButton),
+      gamma_(new QDoubleSpinBox),
+      sides_(new QWidget),
+      hovered_(new QLabel) {
+  sources_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  sources_->setMinimumContentsLength(18);
+  sources_->setToolTip(tr("Which picture is shown"));
+  channels_->addItems({tr("RGB"), "R", "G", "B", "A"});
+  channels_->setToolTip(tr("Channels"));
+  for (QLineEdit* edit : {low_, high_}) {
+    edit->setFixedWidth(74);
+    edit->setAlignment(Qt::AlignRight);
+  }
+  low_->setToolTip(tr("Shown black"));
+  high_->setToolTip(tr("Shown white"));
+  automatic_->setText(tr("Auto"));
+  automatic_->setCheckable(true);
+  automatic_->setChecked(true);
+  automatic_->setToolTip(tr("The range follows the values"));
+  gamma_->setRange(0.1, 8);
+  gamma_->setSingleStep(0.1);
+  gamma_->setValue(1);
+  gamma_->setPrefix("γ ");
+  gamma_->setToolTip(tr("Gamma: above 1 brightens small values"));
+  hovered_->setFont(monospaced());
+  hovered_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  hovered_->setMinimumWidth(60);
+  hovered_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  QToolButton* fit = button("fit", tr("Fit into the view (0)"));
+  QToolButton* save = button("save", tr("Save as PNG"));
+
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 2, 0, 4);
+  column->setSpacing(4);
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(6, 2, 6, 0);
+  head->addWidget(sources_, 1);
+  head->addWidget(check_);
+  column->addLayout(head);
+  auto* tools = new QHBoxLayout;
+  tools->setContentsMargins(6, 0, 6, 0);
+  tools->setSpacing(4);
+  tools->addWidget(channels_);
+  tools->addWidget(low_);
+  tools->addWidget(high_);
+  tools->addWidget(automatic_);
+  tools->addWidget(gamma_);
+  tools->addStretch();
+  tools->addWidget(fit);
+  tools->addWidget(save);
+  column->addLayout(tools);
+  column->addWidget(view_, 1);
+  auto* sides_row = new QHBoxLayout(sides_);
+  sides_row->setContentsMargins(6, 0, 6, 0);
+  column->addWidget(sides_);
+  auto* foot = new QHBoxLayout;
+  foot->setContentsMargins(8, 0, 8, 0);
+  foot->addWidget(hovered_);
+  column->addLayout(foot);
+  sides_->hide();
+
+  connect(view_, &PictureView::picked, this, [this](int x, int y) { debugger_.pick(Pixel{x, y}); });
+  connect(view_, &PictureView::hovered, this, &PicturePanel::showHovered);
+  connect(view_, &PictureView::mappingChanged, this, [this] {
+    low_->setText(number(view_->mapping().low));
+    high_->setText(number(view_->mapping().high));
+  });
+  connect(sources_, &QComboBox::activated, this, [this](int i) { debugger_.show(listed_[i]); });
+  connect(channels_, &QComboBox::activated, this, &PicturePanel::takeMapping);
+  connect(automatic_, &QToolButton::clicked, this, &PicturePanel::takeMapping);
+  connect(gamma_, &QDoubleSpinBox::valueChanged, this, &PicturePanel::takeMapping);
+  for (QLineEdit* edit : {low_, high_})
+    connect(edit, &QLineEdit::editingFinished, this, [this, edit] {
+      if (!edit->isModified()) return;
+      edit->setModified(false);
+      automatic_->setChecked(false);
+      takeMapping();
+    });
+  connect(fit, &QToolButton::clicked, view_, &PictureView::fit);
+  connect(save, &QToolButton::clicked, this, &PicturePanel::exportPicture);
+  for (const auto signal :
+       {&Debugger::valuesChanged, &Debugger::targetChanged, &Debugger::pictureChanged,
+        &Debugger::loopsChanged, &Debugger::profileChanged, &Debugger::pixelChanged, &Debugger::stopChanged})
+    connect(&debugger_, signal, this, &PicturePanel::refresh);
+  connect(&debugger_, &Debugger::placeChanged, this, [this] {
+    // At a branch, its outcome is what one wants to see; behind it, what was shown before.
+    const bool outcome = debugger_.picture().kind == Kind::outcome;
+    if (outcome && debugger_.place() && debugger_.place()->sides.empty()) debugger_.show({});
+    refresh();
+  });
+  refresh();
+}
+
+void PicturePanel::listSources() {
+  listed_.clear();
+  QStringList names;
+  const auto add = [&](const PictureSource& source, const QString& name) {
+    listed_.push_back(source);
+    names.push_back(name);
+  };
+  const int outputs = debugger_.target() ? static_cast<int>(debugger_.target()->outputs.size()) : 1;
+  for (int i = 0; i < outputs; ++i)
+    add({Kind::target, {}, i},
+        outputs == 1 ? tr("What the draw leaves") : tr("What the draw leaves, output %1").arg(i));
+  if (debugger_.place() && !debugger_.place()->sides.empty())
+    add({Kind::outcome, {}, 0}, tr("Outcome of the branch"));
+  if (debugger_.values()) {
+    for (const session::WatchedValues& value : debugger_.values()->threads.values) {
+      const QString name = QString::fromStdString(value.name);
+      if (!name.isEmpty()) add({Kind::value, name, 0}, name);
+    }
+  }
+  if (debugger_.loops())
+    for (int i = 0; i < static_cast<int>(debugger_.loops()->loops.size()); ++i)
+      add({Kind::iterations, {}, i}, tr("Iterations of the loop at line %1")
+                                         .arg(debugger_.loops()->loops[static_cast<std::size_t>(i)].line));
+  if (debugger_.profile()) add({Kind::cost, {}, 0}, tr("Cost"));
+  if (debugger_.profile() && debugger_.profile()->comparison)
+    add({Kind::difference, {}, 0}, tr("Cost against the earlier run"));
+  const PictureSource& shown = debugger_.picture();
+  if (!listed_.contains(shown)) add(shown, shown.name.isEmpty() ? tr("(not here)") : shown.name);
+  const QSignalBlocker quiet(sources_);
+  sources_->clear();
+  sources_->addItems(names);
+  sources_->setCurrentIndex(static_cast<int>(listed_.indexOf(shown)));
+}
+
+PicturePtr PicturePanel::current() const {
+  const PictureSource& shown = debugger_.picture();
+  switch (shown.kind) {
+    case Kind::target:
+      return pictureOfTarget(debugger_.target(), shown.index);
+    case Kind::value:
+      return pictureOfValue(debugger_.values(), shown.name);
+    case Kind::outcome:
+      return debugger_.place() ? pictureOfOutcome(*debugger_.place(), debugger_.values()) : nullptr;
+    case Kind::iterations:
+      return pictureOfIterations(debugger_.loops(), shown.index);
+    case Kind::cost:
+      return pictureOfCost(debugger_.profile());
+    case Kind::difference:
+      return pictureOfDifference(debugger_.profile());
+  }
+  return nullptr;
+}
+
+void PicturePanel::refresh() {
+  listSources();
+  const PicturePtr picture = current();
+  view_->setPicture(picture);
+  const bool numbers = picture && picture->colors.empty();
+  for (QWidget* tool : std::initializer_list<QWidget*>{low_, high_, automatic_, gamma_})
+    tool->setEnabled(numbers);
+  channels_->setEnabled(numbers && picture->components > 1);
+  const auto& pixel = debugger_.pixel();
+  view_->setPicked(pixel ? std::optional(QPoint(pixel->x, pixel->y)) : std::nullopt);
+  const Kind kind = debugger_.picture().kind;
+  std::optional<session::Check> check;
+  if (kind == Kind::value || kind == Kind::outcome) check = debugger_.check();
+  if (kind == Kind::iterations && debugger_.loops()) check = debugger_.loops()->check;
+  if ((kind == Kind::cost || kind == Kind::difference) && debugger_.profile())
+    check = debugger_.profile()->profile.check;
+  check_->setVisible(kind != Kind::target);
+  check_->setCheck(check);
+  showSides();
+  showHovered(-1, -1);
+}
+
+// Fig. 7.5's legend: a side each, with how many threads take it, and the button to follow it.
+void PicturePanel::showSides() {
+  const auto& place = debugger_.place();
+  qDeleteAll(sides_->findChildren<QPushButton*>(QString(), Qt::FindDirectChildrenOnly));
+  sides_->setVisible(place && !place->sides.empty());
+  if (!sides_->isVisibleTo(this)) return;
+  for (std::size_t i = 0; i < place->sides.size(); ++i) {
+    const SideView& side = place->sides[i];
+    const QString name = QString::fromStdString(side.name);
+    auto* follow =
+        new QPushButton(swatch(colorOfSide(*place, i)),
+                        tr("%1: %2").arg(name, QString::fromStdString(session::withThousands(side.threads))));
+    follow->setToolTip(side.picked ? tr("Follow this side; the picked thread takes it")
+                                   : tr("Follow this side"));
+    QFont font = follow->font();
+    font.setBold(side.picked);
+    follow->setFont(font);
+    follow->setEnabled(side.threads > 0 || place->sides.size() > 2);
+    connect(follow, &QPushButton::clicked, this, [this, name] { debugger_.choose(name); });
+    sides_->layout()->addWidget(follow);
+  }
+  if (debugger_.picture().kind == Kind::outcome) return;
+  auto* show = new QPushButton(tr("Show"));
+  show->setToolTip(tr("Show which thread goes which way; orange: left the loop before, or never there"));
+  connect(show, &QPushButton::clicked, this, [this] { debugger_.show({Kind::outcome, {}, 0}); });
+  sides_->layout()->addWidget(show);
+}
+
+void PicturePanel::showHovered(int x, int y) {
+  const auto& pixel = debugger_.pixel();
+  const bool at_mouse = x >= 0;
+  if (!at_mouse && pixel) {
+    x = pixel->x;
+    y = pixel->y;
+  }
+  QString text = view_->describe(x, y);
+  if (text.isEmpty()) text = view_->picture() ? tr("Click a pixel to pick its thread") : QString();
+  hovered_->setText(text);
+}
+
+void PicturePanel::takeMapping() {
+  Mapping mapping = view_->mapping();
+  mapping.channels = static_cast<Mapping::Channels>(channels_->currentIndex());
+  mapping.automatic = automatic_->isChecked();
+  mapping.gamma = gamma_->value();
+  if (!mapping.automatic) {
+    bool low_is_number = false;
+    bool high_is_number = false;
+    const double low = low_->text().toDouble(&low_is_number);
+    const double high = high_->text().toDouble(&high_is_number);
+    if (low_is_number && high_is_number && low < high) {
+      mapping.low = low;
+      mapping.high = high;
+    }
+  }
+  view_->setMapping(mapping);
+}
+
+void PicturePanel::exportPicture() {
+  if (view_->image().isNull()) return;
+  auto* dialog = new QFileDialog(this, tr("Save the picture"), "picture.png", tr("Picture (*.png)"));
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QFileDialog::fileSelected, this, [this, image = view_->image()](const QString& file) {
+    const bool written = image.save(file);
+    Q_EMIT debugger_.message(written ? tr("Wrote %1").arg(file) : tr("Cannot write %1").arg(file), !written);
+  });
+  dialog->open();
+}
+
+}  // namespace shadestep::gui

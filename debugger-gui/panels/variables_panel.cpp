@@ -1,0 +1,155 @@
+#include "debugger-gui/panels/variables_panel.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QHeaderView>
+#include <QMenu>
+#include <QShortcut>
+#include <QVBoxLayout>
+
+#include "profiler/pictures/files.h"
+#include "session/text.h"
+
+namespace shadestep::gui {
+
+VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
+    : QWidget(parent),
+      debugger_(debugger),
+      model_(debugger),
+      expression_(new QLineEdit),
+      check_(new CheckBadge),
+      tree_(new QTreeView),
+      histogram_(new Histogram) {
+  expression_->setPlaceholderText(tr("Watch an expression: dst.rgb, m[1].z, gl_FragCoord"));
+  tree_->setModel(&model_);
+  tree_->setUniformRowHeights(true);
+  tree_->setAlternatingRowColors(true);
+  tree_->setIndentation(14);
+  tree_->setContextMenuPolicy(Qt::CustomContextMenu);
+  tree_->setAccessibleName(tr("Variables"));
+  tree_->header()->setStretchLastSection(true);
+  for (const auto& [column, width] : {std::pair{0, 150}, {1, 330}, {2, 100}, {3, 100}})
+    tree_->setColumnWidth(column, width);
+
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(6, 4, 6, 0);
+  head->addWidget(expression_);
+  head->addWidget(check_);
+  column->addLayout(head);
+  column->addWidget(tree_, 1);
+  column->addWidget(histogram_);
+
+  connect(expression_, &QLineEdit::returnPressed, this, [this] {
+    debugger_.addWatch(expression_->text());
+    expression_->clear();
+  });
+  connect(tree_, &QTreeView::customContextMenuRequested, this, &VariablesPanel::showMenu);
+  connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {
+    const auto target = model_.targetAt(index);
+    if (!target.expression.isEmpty()) debugger_.show({PictureSource::Kind::value, target.expression, 0});
+  });
+  connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+          &VariablesPanel::showDistribution);
+  connect(tree_, &QTreeView::expanded, this,
+          [this](const QModelIndex& index) { unfolded_.insert(model_.targetAt(index).expression); });
+  connect(tree_, &QTreeView::collapsed, this,
+          [this](const QModelIndex& index) { unfolded_.remove(model_.targetAt(index).expression); });
+  auto* remove = new QShortcut(QKeySequence::Delete, tree_);
+  remove->setContext(Qt::WidgetShortcut);
+  connect(remove, &QShortcut::activated, this, [this] {
+    const auto target = model_.targetAt(tree_->currentIndex());
+    if (target.is_watch) debugger_.removeWatch(target.variable);
+  });
+  for (const auto signal : {&Debugger::valuesChanged, &Debugger::pixelChanged, &Debugger::watchesChanged,
+                            &Debugger::placeChanged, &Debugger::stopChanged})
+    connect(&debugger_, signal, this, &VariablesPanel::refresh);
+}
+
+void VariablesPanel::refresh() {
+  const QString chosen = model_.targetAt(tree_->currentIndex()).expression;
+  model_.refresh();
+  Q_EMIT model_.headerDataChanged(Qt::Horizontal, VariableModel::kValue, VariableModel::kValue);
+  for (int group = 0; group < model_.rowCount(); ++group) {
+    const QModelIndex group_index = model_.index(group, 0);
+    tree_->setExpanded(group_index, true);
+    for (int row = 0; row < model_.rowCount(group_index); ++row) {
+      const QModelIndex index = model_.index(row, 0, group_index);
+      const QString expression = model_.targetAt(index).expression;
+      if (unfolded_.contains(expression)) tree_->setExpanded(index, true);
+      if (expression == chosen && !tree_->currentIndex().isValid()) tree_->setCurrentIndex(index);
+    }
+  }
+  check_->setCheck(debugger_.check());
+  showDistribution();
+}
+
+void VariablesPanel::showDistribution() {
+  const auto target = model_.targetAt(tree_->currentIndex());
+  const LookPtr& look = debugger_.values();
+  std::optional<std::size_t> pixel;
+  if (look && debugger_.pixel() && debugger_.pixel()->x < look->threads.width &&
+      debugger_.pixel()->y < look->threads.height)
+    pixel = static_cast<std::size_t>(debugger_.pixel()->y) * static_cast<std::size_t>(look->threads.width) +
+            static_cast<std::size_t>(debugger_.pixel()->x);
+  histogram_->show(look, target.variable, target.component, pixel);
+}
+
+void VariablesPanel::showMenu(const QPoint& position) {
+  const QModelIndex index = tree_->indexAt(position);
+  const auto target = model_.targetAt(index);
+  QMenu menu(this);
+  if (!target.expression.isEmpty()) {
+    menu.addAction(tr("Show as a picture"), this, [this, target] {
+      debugger_.show({PictureSource::Kind::value, target.expression, 0});
+    });
+    if (target.is_watch) {
+      menu.addAction(tr("Remove this watch"), this,
+                     [this, target] { debugger_.removeWatch(target.variable); });
+    } else {
+      menu.addAction(tr("Watch"), this, [this, target] { debugger_.addWatch(target.expression); });
+    }
+    menu.addSeparator();
+    menu.addAction(tr("Copy"), this,
+                   [this, index] { QApplication::clipboard()->setText(model_.textOf(index)); });
+    menu.addAction(tr("Export %1 of all threads...").arg(target.variable), this,
+                   [this, target] { exportCsv(target.variable); });
+  }
+  menu.addAction(tr("Copy all"), this, [this] {
+    QStringList lines;
+    for (int group = 0; group < model_.rowCount(); ++group) {
+      const QModelIndex parent = model_.index(group, 0);
+      for (int row = 0; row < model_.rowCount(parent); ++row)
+        lines.push_back(model_.textOf(model_.index(row, 0, parent)));
+    }
+    QApplication::clipboard()->setText(lines.join('\n'));
+  });
+  menu.exec(tree_->viewport()->mapToGlobal(position));
+}
+
+void VariablesPanel::exportCsv(const QString& expression) {
+  const LookPtr look = debugger_.values();
+  if (!look) return;
+  session::ThreadValues threads = look->threads;
+  std::erase_if(threads.values,
+                [&](const auto& value) { return QString::fromStdString(value.name) != expression; });
+  auto* dialog =
+      new QFileDialog(this, tr("Export %1").arg(expression), expression + ".csv", tr("Table (*.csv)"));
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QFileDialog::fileSelected, this,
+          [this, threads = std::move(threads)](const QString& file) {
+            try {
+              profiler::writeFile(file.toStdString(), session::asCsv(threads));
+              Q_EMIT debugger_.message(tr("Wrote %1").arg(file), false);
+            } catch (const std::exception& error) {
+              Q_EMIT debugger_.message(QString::fromUtf8(error.what()), true);
+            }
+          });
+  dialog->open();
+}
+
+}  // namespace shadestep::gui

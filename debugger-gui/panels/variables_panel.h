@@ -1,0 +1,36 @@
+// Watches and variables of the picked thread, and how the chosen one is distributed over all threads.
+#pragma once
+
+#include <QLineEdit>
+#include <QSet>
+#include <QTreeView>
+
+#include "debugger-gui/models/variable_model.h"
+#include "debugger-gui/views/check_badge.h"
+#include "debugger-gui/views/histogram.h"
+
+namespace shadestep::gui {
+
+class VariablesPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit VariablesPanel(Debugger&, QWidget* parent = nullptr);
+  VariableModel& model() { return model_; }
+  QTreeView& tree() { return *tree_; }
+
+ private:
+  void refresh();
+  void showDistribution();
+  void showMenu(const QPoint&);
+  void exportCsv(const QString& expression);
+
+  Debugger& debugger_;
+  VariableModel model_;
+  QLineEdit* expression_;
+  CheckBadge* check_;
+  QTreeView* tree_;
+  Histogram* histogram_;
+  QSet<QString> unfolded_;
+};
+
+}  // namespace shadestep::gui

@@ -1,0 +1,14 @@
+// The window's icons: line drawings in the colours of the theme, sharp at every resolution.
+#pragma once
+
+#include <QIcon>
+#include <QString>
+
+namespace shadestep::gui {
+
+// "start", "stop", "run", "run-back", "over", "into", "out", "back", "next-draw", "next-frame",
+// "next-iteration", "leave-loop", "list", "fit", "copy", "save", "open", "add", "remove", "check", "differs",
+// "unknown", "app"; an empty icon for others.
+QIcon icon(const QString& name);
+
+}  // namespace shadestep::gui

@@ -1,0 +1,339 @@
+#include "debugger-gui/views/picture_view.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "debugger-gui/style/theme.h"
+#include "profiler/pictures/colors.h"
+
+namespace shadestep::gui {
+namespace {
+
+constexpr double kLargestScale = 160;
+constexpr double kValuesFrom = 34;  // screen pixels per pixel: values are printed
+constexpr double kGridFrom = 8;
+
+QRgb packed(const profiler::Color& color) {
+  const auto byte = [](double v) { return static_cast<int>(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
+  return qRgb(byte(color.r), byte(color.g), byte(color.b));
+}
+
+// A colour map as a table: looked up per pixel.
+using Table = std::array<QRgb, 1024>;
+Table tableOf(profiler::Color (*colors)(double)) {
+  Table table{};
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = packed(colors(static_cast<double>(i) / static_cast<double>(table.size() - 1)));
+  return table;
+}
+const Table& tableFor(Picture::Scale scale) {
+  static const Table kSequential = tableOf(profiler::sequentialColor);
+  static const Table kDifference = tableOf(profiler::differenceColor);
+  return scale == Picture::Scale::difference ? kDifference : kSequential;
+}
+
+}  // namespace
+
+PictureView::PictureView(QWidget* parent) : QWidget(parent) {
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setCursor(Qt::CrossCursor);
+  setAccessibleName(tr("Picture over all threads"));
+}
+
+void PictureView::setPicture(const PicturePtr& picture) {
+  const bool same_size =
+      picture && picture_ && picture->width == picture_->width && picture->height == picture_->height;
+  picture_ = picture;
+  findRange();
+  render();
+  if (!same_size || fitted_) fit();
+  update();
+}
+
+void PictureView::setMapping(const Mapping& mapping) {
+  mapping_ = mapping;
+  findRange();
+  render();
+  update();
+}
+
+void PictureView::setPicked(std::optional<QPoint> pixel) {
+  picked_ = pixel;
+  update();
+}
+
+// ---- numbers to colours
+
+void PictureView::findRange() {
+  if (!mapping_.automatic || !picture_ || !picture_->colors.empty()) return;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  const auto count = static_cast<std::size_t>(picture_->components);
+  const bool alone = mapping_.channels != Mapping::Channels::all;
+  const std::size_t only = alone ? static_cast<std::size_t>(mapping_.channels) - 1 : 0;
+  for (std::size_t p = 0; p < picture_->cells.size(); ++p) {
+    if (picture_->cells[p] != Picture::Cell::reached) continue;
+    for (std::size_t c = 0; c < std::min<std::size_t>(count, 3); ++c) {
+      const std::size_t shown = alone ? std::min(only, count - 1) : c;
+      const double value = static_cast<double>(picture_->values[p * count + shown]);
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  if (low > high) low = 0, high = 1;
+  if ((picture_->as_is || (count > 1 && !alone && low >= 0 && high <= 1)) && !alone) low = 0, high = 1;
+  if (picture_->scale == Picture::Scale::difference) {
+    high = std::max(std::abs(low), std::abs(high));
+    low = -high;
+  }
+  if (low == high) high = low + 1;
+  mapping_.low = low;
+  mapping_.high = high;
+  Q_EMIT mappingChanged();
+}
+
+void PictureView::render() {
+  image_ = QImage();
+  if (!picture_) return;
+  image_ = QImage(picture_->width, picture_->height, QImage::Format_ARGB32_Premultiplied);
+  const auto count = static_cast<std::size_t>(picture_->components);
+  const double span = mapping_.high - mapping_.low;
+  const auto position = [&](float value) {
+    const double t = std::clamp((static_cast<double>(value) - mapping_.low) / span, 0.0, 1.0);
+    return mapping_.gamma == 1 ? t : std::pow(t, 1 / mapping_.gamma);
+  };
+  const bool single = count == 1 || mapping_.channels != Mapping::Channels::all;
+  const std::size_t only = mapping_.channels == Mapping::Channels::all
+                               ? 0
+                               : std::min(static_cast<std::size_t>(mapping_.channels) - 1, count - 1);
+  const Table& table = tableFor(picture_->scale);
+  const auto color = [&](const float* values) -> QRgb {
+    for (std::size_t c = single ? only : 0; c < (single ? only + 1 : std::min<std::size_t>(count, 3)); ++c) {
+      if (std::isnan(values[c])) return theme().nan.rgb();
+      if (std::isinf(values[c])) return theme().infinite.rgb();
+    }
+    if (single)
+      return table[static_cast<std::size_t>(position(values[only]) * static_cast<double>(table.size() - 1))];
+    int rgb[3] = {0, 0, 0};
+    for (std::size_t c = 0; c < std::min<std::size_t>(count, 3); ++c)
+      rgb[c] = static_cast<int>(std::lround(255 * position(values[c])));
+    return qRgb(rgb[0], rgb[1], rgb[2]);
+  };
+  const QRgb none = theme().no_thread.rgb();
+  for (int y = 0; y < picture_->height; ++y) {
+    auto* line = reinterpret_cast<QRgb*>(image_.scanLine(picture_->height - 1 - y));
+    for (int x = 0; x < picture_->width; ++x) {
+      const std::size_t p = picture_->index(x, y);
+      if (picture_->cells[p] == Picture::Cell::none) {
+        line[x] = none;
+      } else if (picture_->cells[p] == Picture::Cell::not_reached) {
+        line[x] = 0;  // the hatched background shows
+      } else {
+        line[x] = picture_->colors.empty() ? color(&picture_->values[p * count]) : picture_->colors[p];
+      }
+    }
+  }
+}
+
+// ---- painting
+
+QRectF PictureView::frame() const {
+  return {origin_, QSizeF(image_.width() * scale_, image_.height() * scale_)};
+}
+
+void PictureView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme().window);
+  if (!picture_) {
+    painter.setPen(theme().faint);
+    painter.drawText(rect(), Qt::AlignCenter, tr("Nothing to show here yet"));
+    return;
+  }
+  const QRectF whole = frame();
+  const QRectF visible = whole.intersected(QRectF(rect()));
+  if (visible.isEmpty()) return;
+  QPixmap hatch(8, 8);
+  hatch.fill(theme().hatch_background);
+  {
+    QPainter lines(&hatch);
+    lines.setPen(QPen(theme().hatch_line, 1.4));
+    for (const int shift : {-8, 0, 8}) lines.drawLine(shift, 8, shift + 8, 0);
+  }
+  painter.fillRect(visible, QBrush(hatch));
+
+  // Only what is seen is scaled; whole pixels, so that they stay squares.
+  const QRect pixels =
+      QRectF((visible.left() - whole.left()) / scale_, (visible.top() - whole.top()) / scale_,
+             visible.width() / scale_, visible.height() / scale_)
+          .toAlignedRect()
+          .intersected(image_.rect());
+  const QRectF target(whole.left() + pixels.left() * scale_, whole.top() + pixels.top() * scale_,
+                      pixels.width() * scale_, pixels.height() * scale_);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, scale_ < 1);
+  painter.drawImage(target, image_, pixels);
+  if (scale_ >= kGridFrom) {
+    painter.setPen(QPen(QColor(128, 128, 128, 70), 1));
+    for (int x = pixels.left(); x <= pixels.right() + 1; ++x)
+      painter.drawLine(QPointF(whole.left() + x * scale_, target.top()),
+                       QPointF(whole.left() + x * scale_, target.bottom()));
+    for (int y = pixels.top(); y <= pixels.bottom() + 1; ++y)
+      painter.drawLine(QPointF(target.left(), whole.top() + y * scale_),
+                       QPointF(target.right(), whole.top() + y * scale_));
+  }
+  if (scale_ >= kValuesFrom) paintValues(painter, pixels);
+  painter.setPen(theme().border);
+  painter.drawRect(whole);
+  if (picked_ && inside(*picked_)) {
+    const double size = std::max(scale_, 9.0);
+    const QPointF middle = positionOf(picked_->x(), picked_->y());
+    const QRectF mark(middle.x() - size / 2, middle.y() - size / 2, size, size);
+    painter.setPen(QPen(Qt::black, 3));
+    painter.drawRect(mark);
+    painter.setPen(QPen(Qt::white, 1));
+    painter.drawRect(mark);
+  }
+}
+
+void PictureView::paintValues(QPainter& painter, const QRect& pixels) {
+  QFont font = monospaced();
+  const int lines = picture_->colors.empty() ? picture_->components : 1;
+  font.setPixelSize(static_cast<int>(std::clamp(scale_ / (lines + 1.5), 6.0, 13.0)));
+  painter.setFont(font);
+  for (int row = pixels.top(); row <= pixels.bottom(); ++row) {
+    for (int x = pixels.left(); x <= pixels.right(); ++x) {
+      const int y = picture_->height - 1 - row;
+      const std::size_t p = picture_->index(x, y);
+      if (picture_->cells[p] != Picture::Cell::reached) continue;
+      const QColor background = QColor::fromRgb(image_.pixel(x, row));
+      const bool is_dark = qGray(background.rgb()) < 128;
+      painter.setPen(is_dark ? Qt::white : Qt::black);
+      const QRectF cell(frame().left() + x * scale_, frame().top() + row * scale_, scale_, scale_);
+      QStringList texts = picture_->texts(p);
+      for (QString& one : texts)
+        one = painter.fontMetrics().elidedText(one, Qt::ElideRight, static_cast<int>(scale_) - 3);
+      painter.drawText(cell, Qt::AlignCenter, texts.join('\n'));
+    }
+  }
+}
+
+// ---- where things are
+
+bool PictureView::inside(const QPoint& pixel) const {
+  return picture_ && pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < picture_->width &&
+         pixel.y() < picture_->height;
+}
+
+QPoint PictureView::pixelAt(const QPointF& position) const {
+  if (!picture_) return {-1, -1};
+  return {static_cast<int>(std::floor((position.x() - origin_.x()) / scale_)),
+          picture_->height - 1 - static_cast<int>(std::floor((position.y() - origin_.y()) / scale_))};
+}
+
+QPointF PictureView::positionOf(int x, int y) const {
+  const int height = picture_ ? picture_->height : 0;
+  return {origin_.x() + (x + 0.5) * scale_, origin_.y() + (height - 1 - y + 0.5) * scale_};
+}
+
+QString PictureView::describe(int x, int y) const {
+  if (!inside({x, y})) return {};
+  const std::size_t p = picture_->index(x, y);
+  const QString where = QString("%1, %2").arg(x).arg(y);
+  if (picture_->cells[p] == Picture::Cell::none)
+    return tr("%1: no thread of the draw is visible here").arg(where);
+  if (picture_->cells[p] == Picture::Cell::not_reached)
+    return tr("%1: its thread does not get here").arg(where);
+  return where + ":  " + picture_->texts(p).join("   ");
+}
+
+void PictureView::fit() {
+  fitted_ = true;
+  if (!picture_ || picture_->width == 0 || picture_->height == 0) return;
+  constexpr double kRoom = 8;
+  const double fits =
+      std::min((width() - 2 * kRoom) / picture_->width, (height() - 2 * kRoom) / picture_->height);
+  scale_ = std::clamp(fits >= 1 ? std::floor(fits * 4) / 4 : fits, 0.01, kLargestScale);
+  origin_ = {std::round((width() - picture_->width * scale_) / 2),
+             std::round((height() - picture_->height * scale_) / 2)};
+  update();
+}
+
+void PictureView::setScale(double scale) {
+  zoomAround(QRectF(rect()).center(), scale / scale_);
+}
+
+void PictureView::zoomAround(const QPointF& position, double factor) {
+  const double scale = std::clamp(scale_ * factor, 0.05, kLargestScale);
+  origin_ = position - (position - origin_) * (scale / scale_);
+  scale_ = scale;
+  fitted_ = false;
+  update();
+}
+
+// ---- the user
+
+void PictureView::wheelEvent(QWheelEvent* event) {
+  zoomAround(event->position(), std::pow(1.2, event->angleDelta().y() / 120.0));
+  event->accept();
+}
+
+void PictureView::mousePressEvent(QMouseEvent* event) {
+  dragged_from_ = event->position();
+  dragged_ = false;
+}
+
+void PictureView::mouseMoveEvent(QMouseEvent* event) {
+  const QPoint pixel = pixelAt(event->position());
+  if (inside(pixel)) {
+    Q_EMIT hovered(pixel.x(), pixel.y());
+  } else {
+    Q_EMIT hovered(-1, -1);
+  }
+  if (!dragged_from_) return;
+  const QPointF moved = event->position() - *dragged_from_;
+  if (!dragged_ && moved.manhattanLength() < 5) return;
+  dragged_ = true;
+  fitted_ = false;
+  origin_ += moved;
+  dragged_from_ = event->position();
+  update();
+}
+
+void PictureView::mouseReleaseEvent(QMouseEvent* event) {
+  const bool was_click = dragged_from_ && !dragged_ && event->button() == Qt::LeftButton;
+  dragged_from_.reset();
+  const QPoint pixel = pixelAt(event->position());
+  if (was_click && inside(pixel)) Q_EMIT picked(pixel.x(), pixel.y());
+}
+
+void PictureView::leaveEvent(QEvent*) {
+  Q_EMIT hovered(-1, -1);
+}
+
+void PictureView::keyPressEvent(QKeyEvent* event) {
+  const QPoint steps[] = {{-1, 0}, {1, 0}, {0, 1}, {0, -1}};
+  const int keys[] = {Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down};
+  for (int i = 0; i < 4; ++i) {
+    if (event->key() != keys[i] || !picked_) continue;
+    const QPoint next = *picked_ + steps[i];
+    if (inside(next)) Q_EMIT picked(next.x(), next.y());
+    return;
+  }
+  if (event->key() == Qt::Key_Plus) return zoomAround(QRectF(rect()).center(), 1.25);
+  if (event->key() == Qt::Key_Minus) return zoomAround(QRectF(rect()).center(), 0.8);
+  if (event->key() == Qt::Key_0) return fit();
+  QWidget::keyPressEvent(event);
+}
+
+void PictureView::resizeEvent(QResizeEvent*) {
+  if (fitted_) fit();
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,202 @@
+#include "debugger-gui/views/source_view.h"
+
+#include <QContextMenuEvent>
+#include <QMenu>
+#include <QRegularExpression>
+#include <QToolTip>
+
+#include "debugger-gui/style/theme.h"
+#include "debugger-gui/views/glsl_lexer.h"
+#include "profiler/pictures/ticks.h"
+
+namespace shadestep::gui {
+namespace {
+
+enum Marker { kCurrentLine = 1, kConditionLine, kArrow, kBreakpoint, kBreakpointOff, kBreakpointIf };
+enum Margin { kNumbers = 0, kSymbols, kCosts };
+constexpr int kDwellMs = 300;
+constexpr int kCostStyle = 60;
+
+}  // namespace
+
+SourceView::SourceView(QWidget* parent) : QsciScintilla(parent), lexer_(new GlslLexer(this)) {
+  setReadOnly(true);
+  setUtf8(true);
+  setLexer(lexer_);
+  setTabWidth(4);
+  setCaretWidth(0);
+  setFrameShape(QFrame::NoFrame);
+  setMarginType(kNumbers, NumberMargin);
+  setMarginType(kSymbols, SymbolMargin);
+  setMarginWidth(kSymbols, 20);
+  setMarginSensitivity(kSymbols, true);
+  setMarginSensitivity(kNumbers, true);
+  setMarginMarkerMask(kSymbols,
+                      (1 << kArrow) | (1 << kBreakpoint) | (1 << kBreakpointOff) | (1 << kBreakpointIf));
+  setMarginMarkerMask(kNumbers, 0);
+  setMarginType(kCosts, TextMarginRightJustified);
+  setMarginMarkerMask(kCosts, 0);
+  setMarginWidth(kCosts, 0);
+  setExtraAscent(1);
+  setExtraDescent(1);
+  setScrollWidthTracking(true);
+  setScrollWidth(1);
+  markerDefine(Background, kCurrentLine);
+  markerDefine(Background, kConditionLine);
+  markerDefine(RightTriangle, kArrow);
+  markerDefine(Circle, kBreakpoint);
+  markerDefine(Circle, kBreakpointOff);
+  markerDefine(Circle, kBreakpointIf);
+  SendScintilla(SCI_SETMOUSEDWELLTIME, kDwellMs);
+  connect(this, &QsciScintilla::marginClicked, this, &SourceView::onMarginClicked);
+  connect(this, &QsciScintillaBase::SCN_DWELLSTART, this, &SourceView::showValue);
+  connect(this, &QsciScintillaBase::SCN_DWELLEND, this, [](int, int, int) { QToolTip::hideText(); });
+  setAccessibleName(tr("Shader source"));
+  applyTheme();
+}
+
+void SourceView::applyTheme() {
+  const Theme& colors = theme();
+  lexer_->applyTheme();
+  setLexer(lexer_);
+  setColor(colors.text);
+  setPaper(colors.panel);
+  setMarginsBackgroundColor(colors.window);
+  setMarginsForegroundColor(colors.faint);
+  setMarginsFont(monospaced());
+  setSelectionBackgroundColor(colors.accent);
+  setSelectionForegroundColor(Qt::white);
+  setMarkerBackgroundColor(colors.current_line, kCurrentLine);
+  setMarkerBackgroundColor(colors.condition_line, kConditionLine);
+  setMarkerBackgroundColor(colors.left, kArrow);
+  setMarkerForegroundColor(colors.left.darker(130), kArrow);
+  setMarkerBackgroundColor(colors.bad, kBreakpoint);
+  setMarkerForegroundColor(colors.bad, kBreakpoint);
+  setMarkerBackgroundColor(colors.window, kBreakpointOff);
+  setMarkerForegroundColor(colors.bad, kBreakpointOff);
+  setMarkerBackgroundColor(colors.left, kBreakpointIf);
+  setMarkerForegroundColor(colors.bad, kBreakpointIf);
+  SendScintilla(SCI_STYLESETFORE, kCostStyle, colors.faint);
+  SendScintilla(SCI_STYLESETBACK, kCostStyle, colors.window);
+  SendScintilla(SCI_STYLESETFONT, kCostStyle, monospaced().family().toUtf8().constData());
+  SendScintilla(SCI_STYLESETSIZE, kCostStyle, static_cast<long>(monospaced().pointSizeF() - 1));
+}
+
+void SourceView::setSource(const StageSource& source) {
+  if (source.lines == source_.lines && source.stage == source_.stage) {
+    source_ = source;
+    return;
+  }
+  source_ = source;
+  QStringList lines;
+  for (const std::string& line : source.lines) lines.push_back(QString::fromStdString(line));
+  setText(lines.join('\n'));
+  setMarginWidth(kNumbers, QString("0%1").arg(lines.size()));
+  clearMarginText();
+  setMarginWidth(kCosts, 0);
+  current_ = 0;
+}
+
+void SourceView::setCurrent(int line, bool condition) {
+  for (const int marker : {kCurrentLine, kConditionLine, kArrow}) markerDeleteAll(marker);
+  current_ = line;
+  condition_ = condition;
+  if (line < 1) return;
+  markerAdd(line - 1, condition ? kConditionLine : kCurrentLine);
+  markerAdd(line - 1, kArrow);
+  setCursorPosition(line - 1, 0);
+  // Some lines of context stay in sight.
+  const long first = SendScintilla(SCI_GETFIRSTVISIBLELINE);
+  const long shown = SendScintilla(SCI_LINESONSCREEN);
+  constexpr long kContext = 3;
+  const long at = SendScintilla(SCI_VISIBLEFROMDOCLINE, static_cast<unsigned long>(line - 1));
+  if (at < first + kContext || at > first + shown - kContext)
+    setFirstVisibleLine(static_cast<int>(std::max(0L, at - shown / 2)));
+}
+
+void SourceView::setBreakpoints(const QMap<int, Breakpoint>& breakpoints) {
+  for (const int marker : {kBreakpoint, kBreakpointOff, kBreakpointIf}) markerDeleteAll(marker);
+  for (auto at = breakpoints.constBegin(); at != breakpoints.constEnd(); ++at) {
+    const bool conditional = !at->condition.isEmpty() || at->ignore > 0;
+    markerAdd(at.key() - 1, !at->enabled ? kBreakpointOff : conditional ? kBreakpointIf : kBreakpoint);
+  }
+}
+
+void SourceView::setCosts(const std::vector<profiler::LineCost>& costs) {
+  clearMarginText();
+  int widest = 0;
+  for (const profiler::LineCost& cost : costs) {
+    QString text = QString::fromStdString(profiler::readable(static_cast<double>(cost.hits), 3));
+    if (cost.hits >= 1'000'000) {
+      text = QString::number(static_cast<double>(cost.hits) / 1e6, 'f', 1) + "M";
+    } else if (cost.hits >= 10'000) {
+      text = QString::number(static_cast<double>(cost.hits) / 1e3, 'f', 0) + "k";
+    }
+    if (cost.share) text += QString(" %1%").arg(100 * *cost.share, 5, 'f', 1);
+    setMarginText(cost.line - 1, " " + text + " ", kCostStyle);
+    widest = std::max(widest, static_cast<int>(text.size()));
+  }
+  setMarginWidth(kCosts, costs.empty() ? QString() : QString(widest + 2, '0'));
+  if (costs.empty()) setMarginWidth(kCosts, 0);
+}
+
+QString SourceView::expressionAt(int line, int column) const {
+  static const QRegularExpression kPath(R"([A-Za-z_]\w*(?:\[\d+\]|\.[A-Za-z_]\w*)*)");
+  const QString text = this->text(line);
+  auto matches = kPath.globalMatch(text);
+  while (matches.hasNext()) {
+    const QRegularExpressionMatch match = matches.next();
+    if (match.capturedStart() > column || match.capturedEnd() <= column) continue;
+    // Only up to the part under the mouse: over `lights` of `lights[2].position` the whole array is meant.
+    const QString path = match.captured();
+    qsizetype end = column - match.capturedStart();
+    while (end < path.size() && (path[end].isLetterOrNumber() || path[end] == '_' || path[end] == ']')) ++end;
+    return path.left(end);
+  }
+  return {};
+}
+
+void SourceView::onMarginClicked(int, int line, Qt::KeyboardModifiers modifiers) {
+  if ((modifiers & Qt::ControlModifier) != 0) {
+    Q_EMIT breakpointEdited(line + 1);
+  } else {
+    Q_EMIT breakpointToggled(line + 1);
+  }
+}
+
+void SourceView::showValue(int position, int x, int y) {
+  if (position < 0 || !describe_) return;
+  int line = 0;
+  int column = 0;
+  lineIndexFromPosition(position, &line, &column);
+  const QString expression = expressionAt(line, column);
+  if (expression.isEmpty()) return;
+  const QString text = describe_(expression);
+  if (!text.isEmpty()) QToolTip::showText(viewport()->mapToGlobal(QPoint(x, y)), text, this);
+}
+
+void SourceView::contextMenuEvent(QContextMenuEvent* event) {
+  const int position = static_cast<int>(SendScintilla(
+      SCI_POSITIONFROMPOINT, static_cast<unsigned long>(event->x()), static_cast<long>(event->y())));
+  int line = 0;
+  int column = 0;
+  lineIndexFromPosition(position, &line, &column);
+  const QString expression = hasSelectedText() ? selectedText() : expressionAt(line, column);
+  QMenu menu(this);
+  menu.addAction(tr("Run to line %1").arg(line + 1), this, [this, line] { Q_EMIT runToLineAsked(line + 1); });
+  menu.addAction(tr("Breakpoint here"), this, [this, line] { Q_EMIT breakpointToggled(line + 1); });
+  menu.addAction(tr("Breakpoint with a condition..."), this,
+                 [this, line] { Q_EMIT breakpointEdited(line + 1); });
+  if (!expression.isEmpty()) {
+    menu.addSeparator();
+    menu.addAction(tr("Watch %1").arg(expression), this,
+                   [this, expression] { Q_EMIT watchAsked(expression); });
+    menu.addAction(tr("Show %1 as a picture").arg(expression), this,
+                   [this, expression] { Q_EMIT pictureAsked(expression); });
+  }
+  menu.addSeparator();
+  menu.addAction(tr("Copy"), this, &QsciScintilla::copy)->setEnabled(hasSelectedText());
+  menu.exec(event->globalPos());
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,53 @@
+// A shader's text: where the threads stand, breakpoints, and what lines cost.
+#pragma once
+
+#include <QMap>
+#include <functional>
+
+#include "debugger-gui/debugger.h"
+#include "debugger-gui/views/qsci.h"
+
+namespace shadestep::gui {
+
+class GlslLexer;
+
+class SourceView : public QsciScintilla {
+  Q_OBJECT
+ public:
+  explicit SourceView(QWidget* parent = nullptr);
+
+  void setSource(const StageSource&);
+  const StageSource& source() const { return source_; }
+  // `line` from 1; 0: the threads are not in here.
+  void setCurrent(int line, bool condition);
+  int current() const { return current_; }
+  void setBreakpoints(const QMap<int, Breakpoint>&);
+  void setCosts(const std::vector<profiler::LineCost>&);
+  // What a tooltip says of an expression under the mouse; "" = nothing.
+  void setDescriber(std::function<QString(const QString&)> describe) { describe_ = std::move(describe); }
+  void applyTheme();
+  // The variable or access path ("color.rg", "m[1].z") around a position of the text.
+  QString expressionAt(int line, int column) const;
+
+ Q_SIGNALS:
+  void breakpointToggled(int line);
+  void breakpointEdited(int line);
+  void runToLineAsked(int line);
+  void watchAsked(const QString& expression);
+  void pictureAsked(const QString& expression);
+
+ protected:
+  void contextMenuEvent(QContextMenuEvent*) override;
+
+ private:
+  void onMarginClicked(int margin, int line, Qt::KeyboardModifiers);
+  void showValue(int position, int x, int y);
+
+  StageSource source_;
+  GlslLexer* lexer_;
+  int current_ = 0;
+  bool condition_ = false;
+  std::function<QString(const QString&)> describe_;
+};
+
+}  // namespace shadestep::gui
