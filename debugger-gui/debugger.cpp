@@ -28,6 +28,8 @@ void Debugger::setProgram(Program program) {
 
 void Debugger::leaveStop() {
   stop_.reset();
+  call_.reset();
+  calls_.clear();
   place_.reset();
   way_.clear();
   values_ = previous_values_ = nullptr;
@@ -37,6 +39,7 @@ void Debugger::leaveStop() {
   loops_ = nullptr;
   gl_state_.clear();
   process_end_.reset();
+  Q_EMIT callChanged();
   Q_EMIT stopChanged();
 }
 
@@ -87,12 +90,68 @@ void Debugger::goTo(std::uint64_t frame, std::uint64_t draw) {
 }
 
 void Debugger::nextDraw() {
-  if (program_ != Program::stopped) return;
+  session::StopCondition condition;
+  condition.next_draw = true;
+  runUntil(tr("Running to the next draw"), condition);
+}
+
+void Debugger::runUntil(const QString& what, const session::StopCondition& condition) {
+  if (!canRun()) return;
   leaveStop();
   setProgram(Program::running);
   backend_.ask(
-      tr("Running to the next draw"), "", [](Debuggee& debuggee) { return debuggee.nextDraw(); },
-      [this](Stop stop) { arrived(std::move(stop)); });
+      what, "", [condition](Debuggee& debuggee) { return debuggee.runUntil(condition); },
+      [this](Halt halt) { halted(std::move(halt)); });
+}
+
+void Debugger::halted(Halt halt) {
+  calls_ = std::move(halt.calls);
+  if (halt.draw) {
+    arrived(std::move(*halt.draw));
+  } else if (halt.call) {
+    call_ = halt.call;
+    setProgram(Program::waiting);
+  } else {
+    setProgram(Program::ended);
+    Q_EMIT message(QString::fromStdString(halt.end), false);
+  }
+  Q_EMIT callChanged();
+}
+
+void Debugger::askCall() {
+  backend_.ask(
+      tr("Looking at the call"), "call", [](Debuggee& debuggee) { return debuggee.call(); },
+      [this](const std::optional<session::CallStop>& call) {
+        call_ = call;
+        Q_EMIT callChanged();
+        Q_EMIT programChanged();
+      });
+}
+
+void Debugger::pause() {
+  if (program_ == Program::running) backend_.interrupt();
+}
+
+void Debugger::setArgument(const QString& name, const QString& value) {
+  if (!call_) return;
+  backend_.ask(
+      tr("Changing %1").arg(name), "",
+      [name = name.toStdString(), value = value.toStdString()](Debuggee& debuggee) {
+        debuggee.setArgument(name, value);
+      },
+      [this] { askCall(); });
+}
+
+void Debugger::skipCall() {
+  if (!call_) return;
+  backend_.ask(
+      tr("Leaving the call out"), "", [](Debuggee& debuggee) { debuggee.skipCall(); },
+      [this] { Q_EMIT message(tr("The call will not be made; the program is told 0"), false); });
+}
+
+void Debugger::logCalls(bool on) {
+  backend_.ask(
+      tr("Logging calls"), "log", [on](Debuggee& debuggee) { debuggee.logCalls(on); }, [] {});
 }
 
 void Debugger::nextFrame() {
@@ -115,7 +174,7 @@ void Debugger::listFrame() {
 }
 
 void Debugger::runToEnd() {
-  if (program_ != Program::stopped) return;
+  if (!canRun()) return;
   leaveStop();
   setProgram(Program::running);
   backend_.ask(
@@ -197,7 +256,8 @@ void Debugger::failed(const QString&, const QString& sentence, Outcome outcome) 
   if (backend_.process() == 0) {
     setProgram(outcome == Outcome::usage ? Program::none : Program::ended);
   } else if (program_ == Program::running) {
-    setProgram(Program::between);
+    setProgram(Program::waiting);
+    askCall();
   }
   Q_EMIT message(sentence, true);
 }

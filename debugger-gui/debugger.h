@@ -41,7 +41,7 @@ class Debugger : public QObject {
     none,
     running,  // towards a draw, or its own end
     stopped,  // at a draw
-    between,  // behind the last draw of a frame
+    waiting,  // at a call that is no draw, or behind the last draw of a frame
     ended,
   };
 
@@ -54,6 +54,8 @@ class Debugger : public QObject {
   const std::optional<Stop>& stop() const { return stop_; }
   const QList<DrawEntry>& draws() const { return draws_; }
   const std::optional<Place>& place() const { return place_; }
+  const std::optional<session::CallStop>& call() const { return call_; }    // at which the program waits
+  const std::vector<session::LoggedCall>& calls() const { return calls_; }  // made on the way here, if logged
   const LookPtr& values() const { return values_; }
   const LookPtr& previousValues() const { return previous_values_; }  // at the place before
   const std::optional<Pixel>& pixel() const { return pixel_; }
@@ -79,6 +81,12 @@ class Debugger : public QObject {
   void start(const ProgramSpec&);
   void goTo(std::uint64_t frame, std::uint64_t draw);
   void nextDraw();
+  void runUntil(const QString& what, const session::StopCondition&);
+  void pause();  // stops a running program at its next call
+  void setArgument(const QString& name, const QString& value);
+  void skipCall();
+  void logCalls(bool on);
+  bool canRun() const { return program_ == Program::stopped || program_ == Program::waiting; }
   void nextFrame();
   void listFrame();
   void runToEnd();
@@ -118,6 +126,7 @@ class Debugger : public QObject {
   void programChanged();
   void drawsChanged();
   void stopChanged();
+  void callChanged();
   void placeChanged();
   void valuesChanged();
   void pixelChanged();
@@ -135,13 +144,15 @@ class Debugger : public QObject {
   void leaveStop();
   void setProgram(Program);
   void arrived(Stop);
+  void halted(Halt);
+  void askCall();
   void placed(Place);
   void lookAgain();
   void followRun();
   void failed(const QString& what, const QString& sentence, session::Outcome);
   void watchProcess();
   void askPlace(const QString& what, std::function<Place(Debuggee&)> work);
-  void goBackTo(int deepest);
+  void goBackTo(int deepest, bool inside_statements);
   void backAlongWay();
   QStringList expressions() const;
   void addDraw(const DrawEntry&);
@@ -152,6 +163,8 @@ class Debugger : public QObject {
   std::optional<Stop> stop_;
   QList<DrawEntry> draws_;
   std::optional<Place> place_;
+  std::optional<session::CallStop> call_;
+  std::vector<session::LoggedCall> calls_;
   std::vector<session::Position> way_;  // positions before the present one
   LookPtr values_, previous_values_;
   std::optional<Pixel> pixel_;

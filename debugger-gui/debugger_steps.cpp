@@ -228,13 +228,15 @@ void Debugger::resume(bool backwards) {
       });
 }
 
-// The last step before this one that the thread was at, no deeper than `depth` calls; at most the whole run.
-void Debugger::goBackTo(int deepest) {
+// To the last step before this one that the thread was at, no deeper in calls than `deepest`.
+void Debugger::goBackTo(int deepest, bool inside_statements) {
   const int here = runStep();
   for (int i = here - 1; i >= 0; --i) {
     const auto& position = run_->positions[static_cast<std::size_t>(i)];
     if (!position || run_->run.steps[static_cast<std::size_t>(i)].depth > deepest) continue;
     if (*position == place_->position) continue;
+    if (position->calls_done > 0 && !inside_statements)
+      continue;  // behind a call: stepping over passes it too
     moveToStep(i);
     return;
   }
@@ -243,20 +245,20 @@ void Debugger::goBackTo(int deepest) {
 void Debugger::back() {
   if (!canGoBack()) return;
   if (const int here = runStep(); here > 0)
-    return goBackTo(run_->run.steps[static_cast<std::size_t>(here)].depth);
+    return goBackTo(run_->run.steps[static_cast<std::size_t>(here)].depth, false);
   backAlongWay();
 }
 
 void Debugger::backInto() {
   if (!canGoBack()) return;
-  if (runStep() > 0) return goBackTo(std::numeric_limits<int>::max());
+  if (runStep() > 0) return goBackTo(std::numeric_limits<int>::max(), true);
   backAlongWay();
 }
 
 void Debugger::backOut() {
   if (!canGoBack()) return;
   if (const int here = runStep(); here > 0)
-    return goBackTo(run_->run.steps[static_cast<std::size_t>(here)].depth - 1);
+    return goBackTo(run_->run.steps[static_cast<std::size_t>(here)].depth - 1, false);
   backAlongWay();
 }
 

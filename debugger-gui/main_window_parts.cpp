@@ -8,7 +8,12 @@
 #include <QToolBar>
 
 #include "debugger-gui/main_window.h"
+#include "debugger-gui/panels/calls_panel.h"
+#include "debugger-gui/panels/cost_panel.h"
 #include "debugger-gui/panels/frame_panel.h"
+#include "debugger-gui/panels/loops_panel.h"
+#include "debugger-gui/panels/run_panel.h"
+#include "debugger-gui/panels/state_panel.h"
 #include "debugger-gui/style/icons.h"
 
 namespace shadestep::gui {
@@ -48,6 +53,9 @@ void MainWindow::makeActions() {
        [&] { debugger.listFrame(); });
   make("to-end", tr("Run to the &end"), tr("Let the program run to its own end"), {QKeySequence("Ctrl+F5")},
        [&] { debugger.runToEnd(); });
+
+  make("pause", tr("&Pause"), tr("Stop the running program at its next call"), {QKeySequence("Ctrl+Alt+P")},
+       [&] { debugger.pause(); });
 
   make("restart", tr("Start of &main"), tr("Back to the start of the shader"),
        {QKeySequence("Ctrl+Shift+F5")}, [&] { debugger.restartShader(); });
@@ -96,7 +104,7 @@ void MainWindow::makeMenus() {
     return made;
   };
   QMenu* program = menu(tr("&Program"), {"start", "open", "save", "", "next-draw", "next-frame", "list",
-                                         "to-end", "", "stop", ""});
+                                         "to-end", "pause", "", "stop", ""});
   auto* quit = program->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setMenuRole(QAction::QuitRole);
   menu(tr("&Step"), {"run", "over", "into", "out", "", "run-back", "back", "back-into", "back-out", "",
@@ -121,8 +129,9 @@ void MainWindow::makeToolBar() {
   bar->setObjectName("steps");
   bar->setIconSize(QSize(20, 20));
   bar->setMovable(false);
-  for (const char* name : {"start", "stop", "", "next-draw", "next-frame", "list", "", "restart", "run-back",
-                           "back", "over", "into", "out", "run", "", "next-iteration", "leave-loop"}) {
+  for (const char* name :
+       {"start", "pause", "stop", "", "next-draw", "next-frame", "list", "", "restart", "run-back", "back",
+        "over", "into", "out", "run", "", "next-iteration", "leave-loop"}) {
     if (*name == '\0') {
       bar->addSeparator();
     } else {
@@ -146,9 +155,24 @@ void MainWindow::makeDocks() {
   QDockWidget* stack = dock("stack", tr("Calls and loops"), stack_, Qt::LeftDockWidgetArea);
   QDockWidget* picture = dock("picture", tr("Picture"), picture_, Qt::RightDockWidgetArea);
   QDockWidget* variables = dock("variables", tr("Variables"), variables_, Qt::BottomDockWidgetArea);
-  resizeDocks({frames, picture}, {250, 430}, Qt::Horizontal);
-  resizeDocks({frames, stack}, {460, 220}, Qt::Vertical);
-  resizeDocks({variables}, {300}, Qt::Vertical);
+  auto* cost = new CostPanel(debugger_);
+  connect(cost, &CostPanel::lineChosen, stack_, &StackPanel::lineChosen);
+  QDockWidget* last = variables;
+  for (const auto& [name, title, panel] :
+       {std::tuple<const char*, QString, QWidget*>{"run", tr("Thread"), new RunPanel(debugger_)},
+        {"loops", tr("Loops"), new LoopsPanel(debugger_)},
+        {"cost", tr("Cost"), cost},
+        {"calls", tr("Calls"), new CallsPanel(debugger_)},
+        {"state", tr("State"), new StatePanel(debugger_)}}) {
+    QDockWidget* made = dock(name, title, panel, Qt::BottomDockWidgetArea);
+    tabifyDockWidget(last, made);
+    last = made;
+  }
+  variables->raise();
+  setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
+  resizeDocks({frames, picture}, {240, 430}, Qt::Horizontal);
+  resizeDocks({frames, stack}, {430, 200}, Qt::Vertical);
+  resizeDocks({variables}, {310}, Qt::Vertical);
 }
 
 void MainWindow::makeStatus() {
@@ -179,7 +203,9 @@ void MainWindow::refreshActions() {
   using Program = Debugger::Program;
   const Program program = debugger_.program();
   const bool at_draw = program == Program::stopped;
-  for (const char* name : {"next-draw", "next-frame", "list", "to-end"}) actions_[name]->setEnabled(at_draw);
+  for (const char* name : {"next-frame", "list"}) actions_[name]->setEnabled(at_draw);
+  for (const char* name : {"next-draw", "to-end"}) actions_[name]->setEnabled(debugger_.canRun());
+  actions_["pause"]->setEnabled(program == Program::running);
   actions_["stop"]->setEnabled(program != Program::none && program != Program::ended);
   actions_["save"]->setEnabled(!debugger_.spec().command.isEmpty());
   const bool can_step = debugger_.canStep();
@@ -197,8 +223,12 @@ void MainWindow::refreshActions() {
         return tr("No program");
       case Program::running:
         return tr("Running");
-      case Program::between:
-        return tr("Between two frames");
+      case Program::waiting:
+        if (!debugger_.call()) return tr("Behind the last draw of a frame");
+        return tr("At %1, frame %2, call %3")
+            .arg(QString::fromStdString(debugger_.call()->call.name))
+            .arg(debugger_.call()->call.frame)
+            .arg(debugger_.call()->call.index);
       case Program::ended:
         return tr("Ended");
       case Program::stopped:

@@ -39,6 +39,7 @@ class Backend : public QObject {
   QString current() const { return current_; }
   // Forgets what waits; what runs is asked to stop.
   void cancel();
+  void interrupt() { debuggee_.interrupt(); }
   // The same, and ends the program where the wait is for it.
   void endProgramNow();
   int process() const { return debuggee_.process(); }

@@ -78,14 +78,26 @@ void Debuggee::start(const session::LaunchOptions& options) {
   launch_ = options;
   session_ = std::make_unique<session::Session>(options);
   process_ = session_->processId();
+  if (log_calls_) logCalls(true);
+  const std::lock_guard lock(interruptible_mutex_);
+  interruptible_ = session_.get();
 }
 
 void Debuggee::end() {
   process_ = 0;
+  leave();
+  ahead_ = {0, 0};
+  {
+    const std::lock_guard lock(interruptible_mutex_);
+    interruptible_ = nullptr;
+  }
+  session_.reset();
+}
+
+// What stands on the stop goes with it.
+void Debuggee::leave() {
   stepper_.reset();
   stop_.reset();
-  next_frame_ = 0;
-  session_.reset();
 }
 
 void Debuggee::endWait() {
@@ -96,59 +108,97 @@ void Debuggee::endWait() {
   }
 }
 
+void Debuggee::interrupt() {
+  const std::lock_guard lock(interruptible_mutex_);
+  if (interruptible_ != nullptr) interruptible_->interrupt();
+}
+
 Stop Debuggee::goTo(std::uint64_t frame, std::uint64_t draw) {
   if (launch_.command.empty()) throw Error(Outcome::usage, "start a program first");
-  const bool passed =
-      stop_ ? std::pair(frame, draw) <= std::pair(stop_->frame, stop_->draw) : frame < next_frame_;
-  const bool again = session_ != nullptr && (passed || hasEnded(process_));
-  const bool had_ended = session_ == nullptr;
-  if (stop_ && !hasEnded(process_) && stop_->frame == frame && stop_->draw == draw) return stopped(false);
-  if (again || had_ended) start(session::LaunchOptions(launch_));
-  stepper_.reset();
-  stop_.reset();
-  next_frame_ = frame + 1;
-  try {
-    stop_ = session_->runTo(frame, draw);
-  } catch (const Error& error) {
-    if (error.outcome() == Outcome::ended) end();
-    throw;
-  }
+  const bool ended = session_ == nullptr || hasEnded(process_);
+  if (stop_ && !ended && stop_->frame == frame && stop_->draw == draw) return stopped(false);
+  const bool again = ended || std::pair(frame, draw) < ahead_;
+  if (again) start(session::LaunchOptions(launch_));
+  runTo(frame, draw);
   return stopped(again);
 }
 
-Stop Debuggee::nextDraw() {
-  atDraw();
-  std::uint64_t frame = stop_->frame;
-  std::uint64_t draw = stop_->draw + 1;
-  stepper_.reset();
-  stop_.reset();
-  while (true) {
-    next_frame_ = frame + 1;
-    try {
-      stop_ = session_->runTo(frame, draw);
-      return stopped(false);
-    } catch (const Error& error) {
-      if (error.outcome() == Outcome::ended) end();
-      if (error.outcome() != Outcome::nothing_matches || cancelled_) throw;
-    }
-    ++frame;
-    draw = 0;
+void Debuggee::runTo(std::uint64_t frame, std::uint64_t draw) {
+  leave();
+  try {
+    stop_ = session_->runTo(frame, draw);
+    ahead_ = {frame, draw + 1};
+  } catch (const session::Interrupted&) {
+    noteCall();
+    throw;
+  } catch (const Error& error) {
+    ahead_ = {frame + 1, 0};
+    if (error.outcome() == Outcome::ended) end();
+    throw;
   }
 }
 
-std::vector<DrawEntry> Debuggee::listFrame() {
-  std::vector<DrawEntry> draws;
-  const std::uint64_t frame = stop_ ? stop_->frame : next_frame_;
-  const std::uint64_t first = stop_ ? stop_->draw : 0;
-  if (stop_) draws.push_back(entry());
+void Debuggee::noteCall() {
+  if (const session::CallStop* at = session_->callStop()) ahead_ = {at->call.frame, at->draw};
+}
+
+Halt Debuggee::runUntil(const session::StopCondition& condition) {
   if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
-  stepper_.reset();
-  stop_.reset();
-  next_frame_ = frame + 1;
+  leave();
+  calls_.clear();
+  const session::Stop found = session_->runUntil(condition);
+  Halt halt;
+  halt.reason = found.reason;
+  halt.calls = std::move(calls_);
+  halt.call = found.call;
+  if (found.draw) {
+    stop_ = found.draw;
+    ahead_ = {stop_->frame, stop_->draw + 1};
+    halt.draw = stopped(false);
+  } else if (found.call) {
+    noteCall();
+  } else {
+    halt.end = found.end;
+    end();
+  }
+  return halt;
+}
+
+std::optional<session::CallStop> Debuggee::call() const {
+  const session::CallStop* at = session_ == nullptr ? nullptr : session_->callStop();
+  return at == nullptr ? std::nullopt : std::optional(*at);
+}
+
+std::string Debuggee::setArgument(const std::string& name, const std::string& value) {
+  if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
+  return session_->setArgument(name, value);
+}
+
+void Debuggee::skipCall() {
+  if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
+  session_->skipCall();
+}
+
+void Debuggee::logCalls(bool on) {
+  constexpr std::size_t kMostLogged = 50'000;  // between two halts; the rest is left out
+  log_calls_ = on;
+  if (session_ == nullptr) return;
+  if (!on) return session_->tellCalls({}, {});
+  session_->tellCalls({}, [this](const session::LoggedCall& one) {
+    if (calls_.size() < kMostLogged) calls_.push_back(one);
+  });
+}
+
+std::vector<DrawEntry> Debuggee::listFrame() {
+  if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
+  std::vector<DrawEntry> draws;
+  if (stop_) draws.push_back(entry());
+  const std::uint64_t frame = stop_ ? stop_->frame : ahead_.first;
+  leave();
   try {
     session_->forEachDraw(frame, frame, [&](const session::DrawStop& stop) {
       if (cancelled_) throw Error(Outcome::usage, "the list ends where it was stopped");
-      if (stop.draw <= first && !draws.empty()) return;
+      if (!draws.empty() && stop.draw <= draws.back().stop.draw) return;
       stop_ = stop;
       draws.push_back(entry());
     });
@@ -156,17 +206,22 @@ std::vector<DrawEntry> Debuggee::listFrame() {
     if (error.outcome() == Outcome::ended) end();
     if (draws.empty()) throw;
   }
+  ahead_ = {frame + 1, 0};
   stop_.reset();
   return draws;
 }
 
 int Debuggee::runToEnd() {
   if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
-  stepper_.reset();
-  stop_.reset();
-  const int status = session_->runToEnd();
-  end();
-  return status;
+  leave();
+  try {
+    const int status = session_->runToEnd();
+    end();
+    return status;
+  } catch (const session::Interrupted&) {
+    noteCall();
+    throw;
+  }
 }
 
 session::Session& Debuggee::atDraw() {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,8 +38,14 @@ class Debuggee {
 
   // Starts the program again where it has passed the draw, or has ended.
   Stop goTo(std::uint64_t frame, std::uint64_t draw);
-  // The next draw, in this frame or, behind its last, the next.
-  Stop nextDraw();
+  // Runs until one of the conditions holds, the program ends, or interrupt().
+  Halt runUntil(const session::StopCondition&);
+  // The call at which the program waits; nothing where it does not.
+  std::optional<session::CallStop> call() const;
+  std::string setArgument(const std::string& name, const std::string& value);
+  void skipCall();
+  // From now on Halt::calls tells of the program's calls, or no longer.
+  void logCalls(bool on);
   // The draws from the present stop to the end of its frame, or of the next one; then the program stands
   // before the frame after it.
   std::vector<DrawEntry> listFrame();
@@ -64,11 +71,15 @@ class Debuggee {
   // should, with the program.
   void cancel() { cancelled_ = true; }
   void endWait();
+  void interrupt();  // stops a running program at its next call
   void clearCancel() { cancelled_ = false; }
   int process() const { return process_; }  // 0: none
 
  private:
   Stop stopped(bool restarted);
+  void runTo(std::uint64_t frame, std::uint64_t draw);
+  void leave();
+  void noteCall();
   DrawEntry entry();
   session::Stepper& stepper();
   session::Session& atDraw();
@@ -79,12 +90,16 @@ class Debuggee {
   std::unique_ptr<session::Session> session_;
   std::unique_ptr<session::Stepper> stepper_;
   std::optional<session::DrawStop> stop_;
-  std::uint64_t next_frame_ = 0;  // without a stop: the first that has not begun
+  std::pair<std::uint64_t, std::uint64_t> ahead_;  // the first frame and draw that the program has not passed
+  std::vector<session::LoggedCall> calls_;         // since the last halt
+  bool log_calls_ = false;
   std::optional<Pixel> pixel_;
   session::FragmentChoice fragments_;
   std::optional<profiler::Earlier> earlier_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<int> process_ = 0;
+  std::mutex interruptible_mutex_;
+  session::Session* interruptible_ = nullptr;  // session_, for interrupt()
 };
 
 }  // namespace shadestep::gui

@@ -42,6 +42,15 @@ struct Stop {
   bool restarted = false;  // the program was started again to get here
 };
 
+// Where the program halted after it ran on.
+struct Halt {
+  std::optional<Stop> draw;               // at a draw,
+  std::optional<session::CallStop> call;  // or at a call,
+  std::string end;                        // or it has ended: how
+  session::StopReason reason = session::StopReason::ended;
+  std::vector<session::LoggedCall> calls;  // what it called on the way, if that is logged
+};
+
 struct StackEntry {
   std::string function;
   int line = 0;  // where it stands: the present line, or that of the call

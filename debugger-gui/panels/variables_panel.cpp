@@ -29,7 +29,7 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setAccessibleName(tr("Variables"));
   tree_->header()->setStretchLastSection(true);
-  for (const auto& [column, width] : {std::pair{0, 150}, {1, 330}, {2, 100}, {3, 100}})
+  for (const auto& [column, width] : {std::pair{0, 140}, {1, 250}, {2, 90}, {3, 90}})
     tree_->setColumnWidth(column, width);
 
   auto* column = new QVBoxLayout(this);
@@ -40,8 +40,11 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   head->addWidget(expression_);
   head->addWidget(check_);
   column->addLayout(head);
-  column->addWidget(tree_, 1);
-  column->addWidget(histogram_);
+  auto* beside = new QHBoxLayout;
+  beside->setSpacing(0);
+  beside->addWidget(tree_, 3);
+  beside->addWidget(histogram_, 1);
+  column->addLayout(beside, 1);
 
   connect(expression_, &QLineEdit::returnPressed, this, [this] {
     debugger_.addWatch(expression_->text());

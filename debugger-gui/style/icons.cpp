@@ -15,6 +15,7 @@ const QMap<QString, QString>& drawings() {
   static const QMap<QString, QString> kDrawings = {
       {"start", R"(<path d="M6 4l10 6-10 6z" fill="G" stroke="G"/>)"},
       {"stop", R"(<rect x="5" y="5" width="10" height="10" rx="1.5" fill="B" stroke="B"/>)"},
+      {"pause", R"(<path d="M7 5v10M13 5v10" stroke="I" stroke-width="2.600"/>)"},
       {"run", R"(<path d="M4 4v12" stroke="I"/><path d="M8 4.500l8 5.500-8 5.500z" fill="A" stroke="A"/>)"},
       {"run-back",
        R"(<path d="M16 4v12" stroke="I"/><path d="M12 4.500l-8 5.500 8 5.500z" fill="A" stroke="A"/>)"},

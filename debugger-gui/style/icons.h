@@ -6,7 +6,7 @@
 
 namespace shadestep::gui {
 
-// "start", "stop", "run", "run-back", "restart", "over", "into", "out", "back", "next-draw", "next-frame",
+// "start", "stop", "pause", "run", "run-back", "restart", "over", "into", "out", "back", "next-draw", "next-frame",
 // "next-iteration", "leave-loop", "list", "fit", "copy", "save", "open", "add", "remove", "check", "differs",
 // "unknown", "app"; an empty icon for others.
 QIcon icon(const QString& name);

@@ -21,7 +21,7 @@ QString number(double value) {
 }  // namespace
 
 Histogram::Histogram(QWidget* parent) : QWidget(parent) {
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
   setAccessibleName(tr("Distribution over all threads"));
 }
 

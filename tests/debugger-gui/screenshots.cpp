@@ -14,6 +14,8 @@ std::vector<std::string> raycaster() {
   return {binary("raycaster"), "--size", "256", "--frames", "3", "--turn", "5"};
 }
 
+constexpr int kInLoop = 53;  // of the ray caster's shader: dst gathers a slab
+
 void save(Window& window, const QString& directory, const QString& name) {
   window.settle();
   QTest::qWait(50);
@@ -25,10 +27,56 @@ void takeAll(const QString& directory) {
   Window window;
   window->resize(1280, 800);
   window.start(raycaster());
-  save(window, directory, "start");
-  window.pick(128, 120);
+  window.press("list");
+  window.pick(140, 120);
   window.stepTo(40);
+  window->variables().tree().setCurrentIndex(window.row("steps"));
   save(window, directory, "step");
+
+  // In the loop: a variable over all threads, the picked thread's way beneath.
+  window.debugger().setBreakpoint(kInLoop, gui::Breakpoint{true, "i == 90", 0});
+  window.press("run");
+  window.debugger().addWatch("dst.a");
+  window.debugger().show({gui::PictureSource::Kind::value, "dst", 0});
+  window.settle();
+  window->variables().tree().setCurrentIndex(window.row("dst.a"));
+  save(window, directory, "value");
+
+  window->dock("run")->raise();
+  window->picture().view().setScale(60);
+  save(window, directory, "pixels");
+  window->picture().view().fit();
+
+  // The branch: who goes which way.
+  for (int i = 0; i < 12 && window.debugger().place()->sides.empty(); ++i) window.press("over");
+  window.debugger().show({gui::PictureSource::Kind::outcome, {}, 0});
+  window->dock("variables")->raise();
+  save(window, directory, "branch");
+
+  window->dock("loops")->raise();
+  window.debugger().askLoops();
+  window.settle();
+  window.debugger().show({gui::PictureSource::Kind::iterations, {}, 0});
+  save(window, directory, "loops");
+
+  window->dock("cost")->raise();
+  window.debugger().askProfile({"clock", 4, {}});
+  window.settle();
+  save(window, directory, "cost");
+
+  window->dock("calls")->raise();
+  window.debugger().logCalls(true);
+  session::StopCondition condition;
+  condition.calls = {"glClear"};
+  window.debugger().runUntil("glClear", condition);
+  save(window, directory, "calls");
+
+  window.press("next-draw");
+  window->setTheme(gui::ThemeChoice::dark);
+  window->dock("variables")->raise();
+  window.press("run");
+  window.debugger().show({gui::PictureSource::Kind::value, "dst", 0});
+  save(window, directory, "dark");
 }
 
 }  // namespace

@@ -39,18 +39,22 @@ void Window::pick(int x, int y) {
   settle();
 }
 
-QString Window::shown(const QString& expression, int column) {
+QModelIndex Window::row(const QString& expression) {
   const gui::VariableModel& model = window_.variables().model();
-  const std::function<QString(const QModelIndex&)> find = [&](const QModelIndex& parent) -> QString {
-    for (int row = 0; row < model.rowCount(parent); ++row) {
-      const QModelIndex index = model.index(row, 0, parent);
-      if (model.targetAt(index).expression == expression)
-        return model.index(row, column, parent).data().toString();
-      if (const QString deeper = find(index); !deeper.isEmpty()) return deeper;
+  const std::function<QModelIndex(const QModelIndex&)> find = [&](const QModelIndex& parent) -> QModelIndex {
+    for (int i = 0; i < model.rowCount(parent); ++i) {
+      const QModelIndex index = model.index(i, 0, parent);
+      if (model.targetAt(index).expression == expression) return index;
+      if (const QModelIndex deeper = find(index); deeper.isValid()) return deeper;
     }
     return {};
   };
   return find({});
+}
+
+QString Window::shown(const QString& expression, int column) {
+  const QModelIndex index = row(expression);
+  return index.isValid() ? index.siblingAtColumn(column).data().toString() : QString();
 }
 
 bool Window::stepTo(int line, int most) {

@@ -24,6 +24,7 @@ class Window {
   void pick(int x, int y);
   // The text in the variables panel, in this column, of an expression; "" if it is not there.
   QString shown(const QString& expression, int column = gui::VariableModel::kValue);
+  QModelIndex row(const QString& expression);  // its row in the panel; invalid if it is not there
   const QString& lastMessage() const { return message_; }
   // Steps over until the line is reached, at most `most` times; false if it was not.
   bool stepTo(int line, int most = 60);

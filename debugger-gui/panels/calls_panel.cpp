@@ -1,0 +1,188 @@
+#include "debugger-gui/panels/calls_panel.h"
+
+#include <QHeaderView>
+#include <QVBoxLayout>
+
+#include "debugger-gui/style/theme.h"
+#include "session/text.h"
+
+namespace shadestep::gui {
+namespace {
+
+QString text(const std::string& string) {
+  return QString::fromStdString(string);
+}
+
+}  // namespace
+
+// ---- the log
+
+void CallModel::add(const std::vector<session::LoggedCall>& calls) {
+  if (calls.empty()) return;
+  const int first = static_cast<int>(calls_.size());
+  beginInsertRows({}, first, first + static_cast<int>(calls.size()) - 1);
+  calls_.insert(calls_.end(), calls.begin(), calls.end());
+  endInsertRows();
+}
+
+void CallModel::clear() {
+  beginResetModel();
+  calls_.clear();
+  endResetModel();
+}
+
+int CallModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(calls_.size());
+}
+
+QVariant CallModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const session::LoggedCall& call = calls_[static_cast<std::size_t>(index.row())];
+  if (role == Qt::ForegroundRole && call.error != 0) return theme().bad;
+  if (role == Qt::FontRole && index.column() == 1) return monospaced();
+  if (role != Qt::DisplayRole) return {};
+  switch (index.column()) {
+    case 0:
+      return QString("%1:%2").arg(call.frame).arg(call.index);
+    case 1: {
+      QStringList arguments;
+      for (const auto& [name, value] : call.arguments) arguments.push_back(text(name + " = " + value));
+      return text(call.name) + "(" + arguments.join(", ") + ")";
+    }
+    case 2:
+      return text(call.result);
+    default:
+      return call.error != 0 ? text(session::errorName(call.error))
+             : call.skipped  ? tr("left out")
+                             : QString();
+  }
+}
+
+QVariant CallModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  static const char* const kNames[] = {"Frame", "Call", "Result", "Error"};
+  return tr(kNames[section]);
+}
+
+// ---- the panel
+
+CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
+    : QWidget(parent),
+      debugger_(debugger),
+      pattern_(new QLineEdit),
+      search_(new QLineEdit),
+      pause_(new QPushButton(tr("Pause"))),
+      skip_(new QPushButton(tr("Leave this call out"))),
+      log_(new QCheckBox(tr("Log"))),
+      title_(new QLabel),
+      arguments_(new QTreeWidget),
+      table_(new QTableView) {
+  const auto stop_button = [this](const QString& name, const QString& tip, const auto& fill) {
+    auto* made = new QPushButton(name);
+    made->setToolTip(tip);
+    connect(made, &QPushButton::clicked, this, [this, name, fill] {
+      session::StopCondition condition;
+      fill(condition);
+      debugger_.runUntil(tr("Running: %1").arg(name), condition);
+    });
+    stops_.push_back(made);
+    return made;
+  };
+  pattern_->setPlaceholderText(tr("glClear*, glBindTexture"));
+  pattern_->setToolTip(tr("Names of calls; * and ? stand for anything"));
+  auto* head = new QHBoxLayout;
+  head->addWidget(stop_button(tr("Next call"), tr("A single step of the program"),
+                              [](session::StopCondition& condition) { condition.next_call = true; }));
+  head->addWidget(stop_button(tr("Next shader"), tr("To the next call that chooses a program"),
+                              [](session::StopCondition& condition) { condition.shader_switch = true; }));
+  head->addWidget(stop_button(tr("Next error"), tr("To the next call that the driver answers with an error"),
+                              [](session::StopCondition& condition) { condition.gl_error = true; }));
+  head->addWidget(stop_button(tr("To call"), tr("To the next call of these names"),
+                              [this](session::StopCondition& condition) {
+                                for (const QString& name : pattern_->text().split(',', Qt::SkipEmptyParts))
+                                  condition.calls.push_back(name.trimmed().toStdString());
+                              }));
+  head->addWidget(pattern_, 1);
+  head->addWidget(pause_);
+  pause_->setToolTip(tr("Stop the running program at its next call"));
+  head->addWidget(log_);
+  log_->setToolTip(tr("Note the calls that the program makes on its way"));
+  head->addWidget(search_, 1);
+  search_->setPlaceholderText(tr("Search the log"));
+
+  arguments_->setHeaderLabels({tr("Argument"), tr("Value (double-click to change)")});
+  arguments_->setRootIsDecorated(false);
+  arguments_->setColumnWidth(0, 110);
+  filter_.setSourceModel(&model_);
+  filter_.setFilterKeyColumn(1);
+  filter_.setFilterCaseSensitivity(Qt::CaseInsensitive);
+  table_->setModel(&filter_);
+  table_->setShowGrid(false);
+  table_->setWordWrap(false);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
+  table_->horizontalHeader()->setStretchLastSection(true);
+  table_->setColumnWidth(0, 60);
+  table_->setColumnWidth(1, 420);
+  auto* call = new QVBoxLayout;
+  call->setSpacing(4);
+  call->addWidget(title_);
+  call->addWidget(arguments_, 1);
+  call->addWidget(skip_);
+  auto* columns = new QHBoxLayout;
+  columns->addLayout(call, 2);
+  columns->addWidget(table_, 3);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(6, 4, 6, 4);
+  column->setSpacing(4);
+  column->addLayout(head);
+  column->addLayout(columns, 1);
+
+  connect(pause_, &QPushButton::clicked, &debugger_, &Debugger::pause);
+  connect(skip_, &QPushButton::clicked, &debugger_, &Debugger::skipCall);
+  connect(log_, &QCheckBox::toggled, &debugger_, &Debugger::logCalls);
+  connect(search_, &QLineEdit::textChanged, &filter_, &QSortFilterProxyModel::setFilterFixedString);
+  connect(arguments_, &QTreeWidget::itemDoubleClicked, this, [this](QTreeWidgetItem* item) {
+    if (skip_->isEnabled()) arguments_->editItem(item, 1);
+  });
+  connect(arguments_, &QTreeWidget::itemChanged, this,
+          [this](QTreeWidgetItem* item, int) { debugger_.setArgument(item->text(0), item->text(1)); });
+  connect(&debugger_, &Debugger::callChanged, this, [this] {
+    model_.add(debugger_.calls());
+    refresh();
+  });
+  connect(&debugger_, &Debugger::programChanged, this, &CallsPanel::refresh);
+  connect(&debugger_, &Debugger::drawsChanged, this, [this] {
+    if (debugger_.draws().isEmpty()) model_.clear();
+  });
+  refresh();
+}
+
+void CallsPanel::refresh() {
+  for (QPushButton* stop : stops_) stop->setEnabled(debugger_.canRun());
+  pause_->setEnabled(debugger_.program() == Debugger::Program::running);
+  showCall();
+  table_->scrollToBottom();
+}
+
+void CallsPanel::showCall() {
+  const QSignalBlocker quiet(arguments_);
+  arguments_->clear();
+  const auto& stop = debugger_.call();
+  skip_->setEnabled(stop && !stop->after);
+  title_->setText(!stop         ? tr("The program does not wait at a call")
+                  : stop->after ? tr("Behind %1").arg(text(stop->call.name))
+                                : tr("Before %1").arg(text(stop->call.name)));
+  if (!stop) return;
+  for (const auto& [name, value] : stop->call.arguments) {
+    auto* item = new QTreeWidgetItem({text(name), text(value)});
+    if (!stop->after) item->setFlags(item->flags() | Qt::ItemIsEditable);
+    item->setFont(1, monospaced());
+    arguments_->addTopLevelItem(item);
+  }
+  const std::uint32_t error = stop->call.error;
+  if (error != 0) title_->setText(title_->text() + ": " + text(session::errorName(error)));
+}
+
+}  // namespace shadestep::gui

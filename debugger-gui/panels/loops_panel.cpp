@@ -1,0 +1,89 @@
+#include "debugger-gui/panels/loops_panel.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QPushButton>
+
+#include "session/text.h"
+
+namespace shadestep::gui {
+
+LoopsPanel::LoopsPanel(Debugger& debugger, QWidget* parent)
+    : QWidget(parent),
+      debugger_(debugger),
+      loops_(new QTreeWidget),
+      curves_(new LoopCurves),
+      check_(new CheckBadge) {
+  loops_->setHeaderLabels({tr("Loop"), tr("Threads"), tr("Mean"), tr("Most")});
+  loops_->setRootIsDecorated(false);
+  loops_->setUniformRowHeights(true);
+  for (const auto& [column, width] : {std::pair{0, 130}, {1, 76}, {2, 64}, {3, 50}})
+    loops_->setColumnWidth(column, width);
+  auto* count = new QPushButton(tr("Count the loops"));
+  auto* keep_button = new QPushButton(tr("Keep to compare"));
+  keep_button->setToolTip(tr("Draws these curves beneath those of the next count, of this draw or another"));
+  auto* left = new QVBoxLayout;
+  left->setSpacing(4);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(count);
+  buttons->addWidget(keep_button);
+  buttons->addWidget(check_);
+  buttons->addStretch();
+  left->addLayout(buttons);
+  left->addWidget(loops_, 1);
+  auto* columns = new QHBoxLayout(this);
+  columns->setContentsMargins(6, 4, 6, 4);
+  columns->addLayout(left, 2);
+  columns->addWidget(curves_, 3);
+  connect(count, &QPushButton::clicked, &debugger_, &Debugger::askLoops);
+  connect(keep_button, &QPushButton::clicked, this, &LoopsPanel::keep);
+  connect(loops_, &QTreeWidget::currentItemChanged, this, &LoopsPanel::showCurve);
+  connect(loops_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* item) {
+    debugger_.show({PictureSource::Kind::iterations, {}, loops_->indexOfTopLevelItem(item)});
+  });
+  connect(&debugger_, &Debugger::loopsChanged, this, &LoopsPanel::refresh);
+  connect(&debugger_, &Debugger::stopChanged, this, &LoopsPanel::refresh);
+}
+
+void LoopsPanel::refresh() {
+  const LoopsPtr& report = debugger_.loops();
+  loops_->clear();
+  check_->setCheck(report ? std::optional(report->check) : std::nullopt);
+  if (report) {
+    for (const session::LoopReport& loop : report->loops) {
+      auto* item =
+          new QTreeWidgetItem({tr("line %1 in %2").arg(loop.line).arg(QString::fromStdString(loop.function)),
+                               QString::fromStdString(session::withThousands(loop.threads)),
+                               QString::number(loop.mean, 'f', 1), QString::number(loop.max)});
+      if (loop.cut > 0)
+        item->setToolTip(
+            0, tr("The driver ended this loop in %1 threads although its condition held").arg(loop.cut));
+      loops_->addTopLevelItem(item);
+    }
+    if (loops_->topLevelItemCount() > 0) loops_->setCurrentItem(loops_->topLevelItem(0));
+  }
+  showCurve();
+}
+
+void LoopsPanel::showCurve() {
+  const int chosen = loops_->indexOfTopLevelItem(loops_->currentItem());
+  const auto curve = [chosen](const LoopsPtr& report, const QString& name) -> std::optional<LoopCurve> {
+    if (!report || chosen < 0 || chosen >= static_cast<int>(report->loops.size())) return std::nullopt;
+    const session::LoopReport& loop = report->loops[static_cast<std::size_t>(chosen)];
+    return LoopCurve{name, loop.active, loop.left};
+  };
+  curves_->show(curve(debugger_.loops(), tr("now")), curve(kept_, kept_name_));
+}
+
+void LoopsPanel::keep() {
+  if (!debugger_.loops() || !debugger_.stop()) return;
+  kept_ = debugger_.loops();
+  const session::DrawStop& stop = debugger_.stop()->draw.stop;
+  kept_name_ = tr("%1, frame %2, draw %3")
+                   .arg(debugger_.spec().command.value(0).section('/', -1))
+                   .arg(stop.frame)
+                   .arg(stop.draw);
+  showCurve();
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,30 @@
+// The loop profiler (thesis 7.1.6): loops, their curves, and an earlier count to compare with.
+#pragma once
+
+#include <QTreeWidget>
+
+#include "debugger-gui/debugger.h"
+#include "debugger-gui/views/check_badge.h"
+#include "debugger-gui/views/loop_curves.h"
+
+namespace shadestep::gui {
+
+class LoopsPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit LoopsPanel(Debugger&, QWidget* parent = nullptr);
+
+ private:
+  void refresh();
+  void showCurve();
+  void keep();
+
+  Debugger& debugger_;
+  QTreeWidget* loops_;
+  LoopCurves* curves_;
+  CheckBadge* check_;
+  LoopsPtr kept_;
+  QString kept_name_;
+};
+
+}  // namespace shadestep::gui

@@ -1,0 +1,36 @@
+// The GL state at the stopped draw, and which fragment tests the debugger's replays use (thesis 7.1.3).
+#pragma once
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <QTreeWidget>
+
+#include "debugger-gui/debugger.h"
+
+namespace shadestep::gui {
+
+class StatePanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit StatePanel(Debugger&, QWidget* parent = nullptr);
+
+ protected:
+  void showEvent(QShowEvent*) override;
+
+ private:
+  void refresh();
+  void filter(const QString&);
+  void chooseFragments();
+  void ask();
+
+  Debugger& debugger_;
+  QLineEdit* search_;
+  QTreeWidget* tree_;
+  QComboBox *alpha_, *depth_, *stencil_, *blend_;
+  QSpinBox *layer_, *sample_;
+  QCheckBox* clear_;
+};
+
+}  // namespace shadestep::gui

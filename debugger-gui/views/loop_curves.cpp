@@ -1,0 +1,136 @@
+#include "debugger-gui/views/loop_curves.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <QToolTip>
+#include <algorithm>
+#include <cmath>
+
+#include "debugger-gui/style/theme.h"
+#include "profiler/pictures/ticks.h"
+#include "session/text.h"
+
+namespace shadestep::gui {
+namespace {
+
+std::uint64_t at(const std::vector<std::uint64_t>& counts, std::size_t i) {
+  return i < counts.size() ? counts[i] : 0;
+}
+
+QString grouped(std::uint64_t number) {
+  return QString::fromStdString(session::withThousands(number));
+}
+
+}  // namespace
+
+LoopCurves::LoopCurves(QWidget* parent) : QWidget(parent) {
+  setMouseTracking(true);
+  setMinimumSize(200, 90);
+  setAccessibleName(tr("Threads per iteration"));
+}
+
+void LoopCurves::show(std::optional<LoopCurve> now, std::optional<LoopCurve> before) {
+  now_ = std::move(now);
+  before_ = std::move(before);
+  update();
+}
+
+QRectF LoopCurves::plot() const {
+  return QRectF(rect()).adjusted(64, 22, -14, -22);
+}
+
+std::size_t LoopCurves::iterations() const {
+  return std::max(now_ ? now_->active.size() : 0, before_ ? before_->active.size() : 0);
+}
+
+void LoopCurves::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.fillRect(rect(), theme().panel);
+  QFont small = font();
+  small.setPointSizeF(small.pointSizeF() - 1);
+  painter.setFont(small);
+  const std::size_t count = iterations();
+  if (count == 0) {
+    painter.setPen(theme().faint);
+    painter.drawText(rect(), Qt::AlignCenter,
+                     tr("Count the loops to see how many threads are active in each iteration"));
+    return;
+  }
+  const QRectF area = plot();
+  std::uint64_t most = 1;
+  for (const auto* curve : {&now_, &before_})
+    if (*curve) most = std::max(most, *std::max_element((*curve)->active.begin(), (*curve)->active.end()));
+  const auto x = [&](double i) {
+    return area.left() + area.width() * i / static_cast<double>(std::max<std::size_t>(count, 2) - 1);
+  };
+  const auto y = [&](double threads) {
+    return area.bottom() - area.height() * threads / static_cast<double>(most);
+  };
+  for (const profiler::Tick& tick : profiler::ticks(0, static_cast<double>(most), 4)) {
+    painter.setPen(QPen(theme().border, 1, Qt::DotLine));
+    painter.drawLine(QPointF(area.left(), y(tick.value)), QPointF(area.right(), y(tick.value)));
+    painter.setPen(theme().faint);
+    painter.drawText(QRectF(0, y(tick.value) - 8, area.left() - 6, 16), Qt::AlignRight | Qt::AlignVCenter,
+                     QString::fromStdString(tick.label));
+  }
+  for (const profiler::Tick& tick : profiler::ticks(0, static_cast<double>(count - 1), 8)) {
+    painter.setPen(theme().faint);
+    painter.drawText(QRectF(x(tick.value) - 40, area.bottom() + 3, 80, 16), Qt::AlignHCenter,
+                     QString::fromStdString(tick.label));
+  }
+  // Those who leave, enlarged by the root: they are few in each iteration.
+  const auto curves = [&](const LoopCurve& curve, const QColor& active, const QColor& left, bool dashed) {
+    QPainterPath path;
+    for (std::size_t i = 0; i < count; ++i) {
+      const QPointF point(x(static_cast<double>(i)), y(static_cast<double>(at(curve.active, i))));
+      if (i == 0)
+        path.moveTo(point);
+      else
+        path.lineTo(point);
+    }
+    painter.setPen(QPen(active, 1.8, dashed ? Qt::DashLine : Qt::SolidLine));
+    painter.drawPath(path);
+    const double bar = std::max(1.0, area.width() / static_cast<double>(count) - 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double threads = static_cast<double>(at(curve.left, i));
+      if (threads > 0)
+        painter.fillRect(
+            QRectF(x(static_cast<double>(i)) - bar / 2, y(threads), bar, area.bottom() - y(threads)), left);
+    }
+  };
+  QColor pale = theme().faint;
+  pale.setAlpha(90);
+  QColor leaving = theme().left;
+  leaving.setAlpha(190);
+  if (before_) curves(*before_, theme().faint, pale, true);
+  if (now_) curves(*now_, theme().accent, leaving, false);
+  painter.setPen(theme().text);
+  const auto key = [&](double left, const QColor& color, const QString& text) {
+    painter.fillRect(QRectF(left, 8, 14, 4), color);
+    painter.drawText(QPointF(left + 19, 14), text);
+    return left + 30 + painter.fontMetrics().horizontalAdvance(text);
+  };
+  double next = key(area.left(), theme().accent, tr("active threads"));
+  next = key(next, theme().left, tr("leaving"));
+  if (before_) key(next, theme().faint, before_->name);
+  painter.setPen(theme().faint);
+  painter.drawLine(area.bottomLeft(), area.bottomRight());
+}
+
+void LoopCurves::mouseMoveEvent(QMouseEvent* event) {
+  const QRectF area = plot();
+  const std::size_t count = iterations();
+  if (count == 0 || !area.adjusted(-8, -8, 8, 8).contains(event->position())) return QToolTip::hideText();
+  const double share = std::clamp((event->position().x() - area.left()) / area.width(), 0.0, 1.0);
+  const auto i = static_cast<std::size_t>(std::lround(share * static_cast<double>(count - 1)));
+  QString text = tr("iteration %1").arg(i);
+  if (now_) text += tr("\n%1 active, %2 leave").arg(grouped(at(now_->active, i)), grouped(at(now_->left, i)));
+  if (before_)
+    text += tr("\n%1: %2 active, %3 leave")
+                .arg(before_->name, grouped(at(before_->active, i)), grouped(at(before_->left, i)));
+  QToolTip::showText(event->globalPosition().toPoint(), text, this);
+}
+
+}  // namespace shadestep::gui

@@ -1,0 +1,35 @@
+// Active and leaving threads per iteration of a loop, and those of an earlier run beneath them (thesis
+// fig. 7.8).
+#pragma once
+
+#include <QWidget>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace shadestep::gui {
+
+struct LoopCurve {
+  QString name;
+  std::vector<std::uint64_t> active, left;
+};
+
+class LoopCurves : public QWidget {
+  Q_OBJECT
+ public:
+  explicit LoopCurves(QWidget* parent = nullptr);
+  void show(std::optional<LoopCurve> now, std::optional<LoopCurve> before);
+  QSize sizeHint() const override { return {420, 180}; }
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+  void mouseMoveEvent(QMouseEvent*) override;
+
+ private:
+  QRectF plot() const;
+  std::size_t iterations() const;
+
+  std::optional<LoopCurve> now_, before_;
+};
+
+}  // namespace shadestep::gui
