@@ -157,6 +157,7 @@ Json toJson(const session::Check& check) {
   json["undefined"] = check.undefined;
   json["reason"] = check.reason.empty() ? Json(nullptr) : Json(check.reason);
   json["left_out"] = check.left_out.empty() ? Json(nullptr) : Json(check.left_out);
+  json["dropped"] = check.dropped.empty() ? Json(nullptr) : Json(check.dropped);
   return json;
 }
 

@@ -247,8 +247,11 @@ class Combiner {
       statement.may_discard |= at(shader_.functions, at(shader_.calls, call).callee).may_discard;
     }
     switch (statement.kind) {
-      case StatementKind::block:
       case StatementKind::case_label:
+        if (const auto label = facts_.labels.find(statement.tokens.first); label != facts_.labels.end())
+          statement.label = label->second;
+        break;
+      case StatementKind::block:
       case StatementKind::break_:
       case StatementKind::continue_:
         break;

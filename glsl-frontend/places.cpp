@@ -1,4 +1,5 @@
-// Statements by their place in the text, and by the loops around them.
+// Statements by their place in the text, and by the loops around them; what the text says where a variable is
+// declared.
 #include <algorithm>
 
 #include "glsl-frontend/shader.h"
@@ -75,6 +76,25 @@ std::vector<StatementId> statementsAt(const Shader& shader, int line, int column
   }
   if (!starting.empty()) return starting;
   return innermost(shader, [&](const Statement& s) { return ownsTokenOnLine(shader, s, line); });
+}
+
+VariableId declaredByCondition(const Shader& shader, StatementId id) {
+  const Statement& statement = statementAt(shader, id);
+  if (!statement.condition_declares) return kNone;
+  for (std::size_t i = 0; i < shader.variables.size(); ++i) {
+    const TokenIndex declared = shader.variables[i].declared;
+    if (statement.expression.first <= declared && declared <= statement.expression.last)
+      return static_cast<VariableId>(i);
+  }
+  return kNone;
+}
+
+bool hasInitializer(const Shader& shader, VariableId id) {
+  TokenIndex i = std::max(shader.variables[static_cast<std::size_t>(id)].declared, 0);
+  const auto is = [&](const char* text) { return tokenAt(shader, i).text == text; };
+  const auto count = static_cast<TokenIndex>(shader.tokens.size());
+  while (i < count && !is(";") && !is(",") && !is("=")) ++i;
+  return i < count && is("=");
 }
 
 std::vector<StatementId> enclosingLoops(const Shader& shader, StatementId id) {

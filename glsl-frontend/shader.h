@@ -5,6 +5,7 @@
 // (including through calls, and including variables not in scope).
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -94,6 +95,7 @@ struct Statement {
   std::vector<CallId> calls;         // calls of user functions in its own expressions, in token order
   bool may_discard = false;          // may end the thread (discard here or in a called function)
   std::string reason;                // for opaque
+  std::optional<std::int64_t> label; // case_label: its value; none for `default`
 };
 
 // A call of a user-defined function.
@@ -174,6 +176,12 @@ std::vector<StatementId> statementsAt(const Shader&, int line, int column = 0);
 
 // The loops that enclose a statement inside its function, outermost first (the statement itself not counted).
 std::vector<StatementId> enclosingLoops(const Shader&, StatementId);
+
+// The variable that the statement's condition declares, as in `while (bool b = f())`; kNone if it declares none.
+VariableId declaredByCondition(const Shader&, StatementId);
+
+// Does the variable's declaration give it a value?
+bool hasInitializer(const Shader&, VariableId);
 
 // A value that a user names at a statement: a variable in scope with an optional access path
 // ("color", "color.rg", "m[1].z", "lights[2].position"). Indices are integer literals.

@@ -320,8 +320,21 @@ class TreeReader {
       read(loop->getBody());
       read(loop->getTerminal());
     } else if (glslang::TIntermBranch* branch = node.getAsBranchNode()) {
+      noteLabel(*branch);
       read(branch->getExpression());
     }
+  }
+
+  void noteLabel(glslang::TIntermBranch& branch) {
+    const glslang::TIntermTyped* value =
+        branch.getFlowOp() == glslang::EOpCase ? branch.getExpression() : nullptr;
+    const glslang::TIntermConstantUnion* constant = value ? value->getAsConstantUnion() : nullptr;
+    const TokenIndex token = originOf(branch).token;
+    if (!constant || token == kNone) return;
+    if (constant->getBasicType() == glslang::EbtInt)
+      facts_.labels[token] = constant->getConstArray()[0].getIConst();
+    else if (constant->getBasicType() == glslang::EbtUint)
+      facts_.labels[token] = constant->getConstArray()[0].getUConst();
   }
 
   void readBinary(glslang::TIntermBinary& binary) {

@@ -2,6 +2,7 @@
 // that knows glslang. Internal to the front-end.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -51,6 +52,7 @@ struct SyntaxFacts {
   std::map<std::string, Type> globals;    // types of globals and of nameless blocks' members
   std::set<std::string> unreadable;       // of those, the ones that are `writeonly` as a whole or in part
   std::vector<Meaning> meanings;          // if they were asked for
+  std::map<TokenIndex, std::int64_t> labels;  // at `case`: the value, where it is an integer
   bool uses_derivatives = false;
   bool writes_memory = false;  // through built-in functions; buffer variables are in `accesses`
   bool early_fragment_tests = false;

@@ -93,8 +93,8 @@ std::string Attachments::assign(const std::vector<Field>& fields, std::uint32_t 
   return assignWords(words, (static_cast<int>(words.size()) + 3) / 4);
 }
 
-std::string Attachments::clear(std::uint32_t mark) const {
-  return assignWords({markWord(mark)}, layout_.attachments());
+std::string Attachments::clear(std::uint32_t mark, const std::string& nothing) const {
+  return assignWords({markWord(mark)}, layout_.attachments(), nothing);
 }
 
 void Attachments::frame(const std::string& start, const std::string& end) {
@@ -145,8 +145,10 @@ std::string Attachments::unrounded(const std::string& words) const {
   return draft_.es() ? "gl_FragCoord.x < -1.0 ? vec4(gl_FragCoord.x) : " + words : words;
 }
 
-std::string Attachments::assignWords(const std::vector<std::string>& words, int attachments) const {
+std::string Attachments::assignWords(const std::vector<std::string>& words, int attachments,
+                                     const std::string& nothing) const {
   const bool floats = layout_.carrier == Carrier::float_attachments;
+  const std::string zero = floats ? "0.0" : "0u";
   std::string text;
   for (int i = 0; i < attachments; ++i) {
     if (i > 0) text += ", ";
@@ -154,7 +156,7 @@ std::string Attachments::assignWords(const std::vector<std::string>& words, int 
     for (std::size_t channel = 0; channel < 4; ++channel) {
       const std::size_t word = static_cast<std::size_t>(i) * 4 + channel;
       if (channel > 0) text += ", ";
-      text += word < words.size() ? words[word] : floats ? "0.0" : "0u";
+      text += word < words.size() ? words[word] : nothing.empty() ? zero : nothing;
     }
     text += ")";
   }

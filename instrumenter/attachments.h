@@ -37,7 +37,8 @@ class Attachments {
   }
   std::string assign(const std::vector<Field>& fields, std::uint32_t mark,
                      const std::vector<std::string>& values) const;
-  std::string clear(std::uint32_t mark) const;
+  // `nothing`: what stands for words that no value is captured in, a float or uint expression.
+  std::string clear(std::uint32_t mark, const std::string& nothing = "") const;
   // The frame of a thread that captures, around the shader's own main: complete GLSL statements for its start
   // and for each of its ends, where the words are then handed over. To be called once, before the functions
   // along a call path are cloned.
@@ -49,7 +50,8 @@ class Attachments {
   const AttachmentLayout& layout() const { return layout_; }
 
  private:
-  std::string assignWords(const std::vector<std::string>& words, int attachments) const;
+  std::string assignWords(const std::vector<std::string>& words, int attachments,
+                          const std::string& nothing = "") const;
   std::string unrounded(const std::string& words) const;
   std::string markWord(std::uint32_t mark) const;
   void declareDiscarded();

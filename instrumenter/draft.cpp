@@ -31,6 +31,24 @@ void addOnce(std::vector<std::string>& texts, std::string_view text) {
   if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.emplace_back(text);
 }
 
+// A function that is declared, called and nowhere defined: the driver has linked the program, hence found
+// that no call of it runs. Instrumented, it may find that no more.
+std::string definitionsOfUndefined(const frontend::Shader& shader, const std::string& nothing) {
+  std::string text;
+  for (const frontend::Function& function : shader.functions) {
+    if (function.body != frontend::kNone || function.prototypes.empty() || !function.candidates.empty())
+      continue;
+    const TokenRange prototype = function.prototypes.front();
+    const std::vector<Token> header(shader.tokens.begin() + prototype.first,
+                                    shader.tokens.begin() + prototype.last);
+    text += frontend::emit(header) + " {";
+    if (function.return_type.basic != frontend::Basic::void_)
+      text += " " + frontend::glslName(function.return_type) + " " + nothing + "; return " + nothing + ";";
+    text += " }\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 Draft::Draft(const frontend::Shader& shader)
@@ -70,6 +88,8 @@ Result<std::string> Draft::finish() {
     return Failure{"The shader cannot be instrumented: at token " + std::to_string(conflict->token) + ", " +
                    conflict->reason + "; please report this shader."};
   auto& user = std::get<std::vector<Token>>(applied);
+  if (const std::string undefined = definitionsOfUndefined(shader_, name("nothing")); !undefined.empty())
+    append(undefined);
 
   // Extensions after the user's own directives, which may switch them off; declarations after the extensions.
   // The leading directives are never edited, so the first declaration is still where it was.

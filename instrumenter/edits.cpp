@@ -21,6 +21,11 @@ void Edits::wrap(TokenRange range, std::string open, std::string close) {
   }
 }
 
+void Edits::wrapInBraces(TokenRange range, std::string open, std::string close) {
+  const bool first = braced_.insert(range.first).second;
+  wrap(range, first ? "{ " + open : std::move(open), first ? close + " }" : std::move(close));
+}
+
 void Edits::insertBefore(TokenIndex token, std::string text) {
   insertBefore(token, textAt(token, std::move(text)));
 }

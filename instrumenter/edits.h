@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,6 +30,9 @@ class Edits {
   // Text before the range's first and after its last token. An empty range {i, i-1} means the gap before
   // token i (the missing condition of `for (;;)`); see fill.
   void wrap(frontend::TokenRange range, std::string open, std::string close);
+  // As wrap, inside of braces of the range's own: one pair, outside of all texts that stand in them. Two
+  // pairs would end the scope of what the range declares.
+  void wrapInBraces(frontend::TokenRange range, std::string open, std::string close);
   void insertBefore(frontend::TokenIndex token, std::string text);
   void insertAfter(frontend::TokenIndex token, std::string text);
   void insertBefore(frontend::TokenIndex token, std::vector<frontend::Token> tokens);
@@ -59,6 +63,7 @@ class Edits {
 
   const Tokens* tokens_;
   std::map<frontend::TokenIndex, Slot> slots_;
+  std::set<frontend::TokenIndex> braced_;  // first tokens of the ranges that have braces of their own
   std::optional<EditConflict> conflict_;
 };
 

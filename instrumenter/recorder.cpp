@@ -114,7 +114,16 @@ void Recorder::recordCondition(StatementId id) {
   const std::vector<Item> more = statement.kind == StatementKind::for_
                                      ? changedByLoopHead(statement)
                                      : changed(statement.changes, statement.scope, {});
-  items.insert(items.end(), more.begin(), more.end());
+  const VariableId declared = frontend::declaredByCondition(shader_, id);
+  if (declared == frontend::kNone) {
+    items.insert(items.end(), more.begin(), more.end());
+  } else {
+    // Its name means something else until its value is there, which is the outcome.
+    const std::string name = item(declared).name;
+    std::copy_if(more.begin(), more.end(), std::back_inserter(items),
+                 [&](const Item& one) { return one.name != name; });
+    items.push_back({name, conditions_.outcome(id), outcomeType(shader_, id)});
+  }
   conditions_.putAfter(draft_.edits, id, record(Event::condition, id, items));
 }
 

@@ -43,6 +43,13 @@ std::string mixedPaths(const Shader& shader, const CallPaths& paths, const std::
   return "";
 }
 
+// What words hold before a probe captures. Floats begin with no constant: Mesa turns the choice between the
+// constants -1.0 and 0.0 by a probe's number into -0.0 for 0.0.
+std::string nothing(const Draft& draft, const Attachments& attachments) {
+  const bool floats = attachments.layout().carrier == Carrier::float_attachments;
+  return floats ? "float(" + draft.name("probe") + ")" : "";
+}
+
 std::vector<std::string> declareUniforms(Draft& draft, const std::vector<Probe>& probes) {
   std::size_t loops = 0;
   for (const Probe& probe : probes) loops = std::max(loops, probe.iterations.size());
@@ -70,7 +77,7 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
 
   // In the same order as for a single probe.
   attachments.declare();
-  attachments.frame("  " + attachments.clear(kLaunched) + ";\n", "");
+  attachments.frame("  " + attachments.clear(kLaunched, nothing(draft, attachments)) + ";\n", "");
   std::vector<CallPaths::Path> wanted;
   for (const Probe& probe : probes) wanted.push_back(probe.call_path);
   CallPaths paths(draft, wanted);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "session/error.h"
+
 namespace shadestep::session {
 
 using frontend::CallId;
@@ -9,6 +11,25 @@ using frontend::kNone;
 using frontend::Statement;
 using frontend::StatementId;
 using frontend::StatementKind;
+
+std::size_t sideOf(const std::vector<Side>& sides, frontend::Basic outcome, std::uint32_t word) {
+  const bool decides = outcome == frontend::Basic::bool_;
+  std::size_t otherwise = sides.size() - 1;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const std::string& name = sides[s].name;
+    if (decides) {
+      if (name == (word != 0 ? "true" : "false")) return s;
+    } else if (name == "default" || name == "no case") {
+      otherwise = s;
+    } else if (!sides[s].label) {
+      throw Error(Outcome::cannot_debug, "the value of the label '" + name +
+                                             "' is not known here; go on with 'line N' inside of the case");
+    } else if (static_cast<std::uint32_t>(*sides[s].label) == word) {
+      return s;
+    }
+  }
+  return otherwise;
+}
 
 namespace {
 
@@ -305,16 +326,16 @@ std::vector<Side> Navigation::sides(const Position& from) const {
 
   if (statement.kind == StatementKind::if_) {
     const bool has_else = statement.children.size() > 1;
-    return {{"true", enter(from, statement.children[0])},
-            {"false", has_else ? enter(from, statement.children[1]) : next(from)}};
+    return {{"true", enter(from, statement.children[0]), {}},
+            {"false", has_else ? enter(from, statement.children[1]) : next(from), {}}};
   }
   if (statement.kind == StatementKind::do_while) {
     Position again = from;
     ++again.iterations.back();
-    return {{"true", enter(again, statement.children.front())}, {"false", next(left)}};
+    return {{"true", enter(again, statement.children.front()), {}}, {"false", next(left), {}}};
   }
   if (isLoop(statement)) {
-    return {{"true", enter(from, statement.children.front())}, {"false", next(left)}};
+    return {{"true", enter(from, statement.children.front()), {}}, {"false", next(left), {}}};
   }
   std::vector<Side> sides;
   bool has_default = false;
@@ -326,9 +347,9 @@ std::vector<Side> Navigation::sides(const Position& from) const {
       name += (name.empty() ? "" : " ") + shader_.tokens[static_cast<std::size_t>(t)].text;
     }
     has_default = has_default || name == "default";
-    sides.push_back({name, enterList(from, statement.children, i + 1, from.statement)});
+    sides.push_back({name, enterList(from, statement.children, i + 1, from.statement), label.label});
   }
-  if (!has_default) sides.push_back({"no case", next(from)});
+  if (!has_default) sides.push_back({"no case", next(from), {}});
   return sides;
 }
 

@@ -7,6 +7,8 @@
 // meant.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +36,12 @@ struct Position {
 struct Side {
   std::string name;  // "true", "false"; at a switch "case 3", "default", "no case"
   Position next;
+  std::optional<std::int64_t> label;  // of a case, where its value is known
 };
+
+// The side that a thread takes whose condition had this outcome. Throws cannot_debug where a label's value is
+// not known. Assumes that there is one.
+std::size_t sideOf(const std::vector<Side>&, frontend::Basic outcome, std::uint32_t word);
 
 class Navigation {
  public:

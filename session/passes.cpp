@@ -36,6 +36,7 @@ void Check::merge(const Check& other) {
   undefined = std::max(undefined, other.undefined);
   compared = std::max(compared, other.compared);
   differing = std::max(differing, other.differing);
+  if (dropped.empty()) dropped = other.dropped;
 }
 
 std::uint32_t glUniformType(const frontend::Type& type) {

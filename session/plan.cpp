@@ -1,5 +1,6 @@
 #include "session/plan.h"
 
+#include "session/dropped_uniforms.h"
 #include "session/recording_plan.h"
 #include "session/window_plan.h"
 
@@ -8,20 +9,19 @@ namespace {
 
 class SinglePlan : public CapturePlan {
  public:
-  explicit SinglePlan(Session& session) : session_(session) {}
-  ThreadValues valuesAt(const instrumenter::Probe& probe) override {
-    return session::valuesAt(session_, probe);
-  }
+  using CapturePlan::CapturePlan;
 
  private:
-  Session& session_;
+  ThreadValues look(const instrumenter::Probe& probe) override { return session::valuesAt(session_, probe); }
 };
 
 // A window where one fits, else single probes.
 class AutomaticPlan : public CapturePlan {
  public:
-  explicit AutomaticPlan(Session& session) : window_(session), single_(session) {}
-  ThreadValues valuesAt(const instrumenter::Probe& probe) override {
+  explicit AutomaticPlan(Session& session) : CapturePlan(session), window_(session), single_(session) {}
+
+ private:
+  ThreadValues look(const instrumenter::Probe& probe) override {
     try {
       return window_.valuesAt(probe);
     } catch (const Error& error) {
@@ -30,12 +30,17 @@ class AutomaticPlan : public CapturePlan {
     return single_.valuesAt(probe);
   }
 
- private:
   WindowPlan window_;
   SinglePlan single_;
 };
 
 }  // namespace
+
+ThreadValues CapturePlan::valuesAt(const instrumenter::Probe& probe) {
+  ThreadValues values = look(probe);
+  takeOutDropped(session_, probe.watches, values);
+  return values;
+}
 
 std::optional<Plan> planByName(const std::string& name) {
   if (name == "auto") return Plan::automatic;

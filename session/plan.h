@@ -23,10 +23,18 @@ std::optional<Plan> planByName(const std::string&);
 // Serves the draw that the session stands at, and no longer.
 class CapturePlan {
  public:
+  explicit CapturePlan(Session& session) : session_(session) {}
   virtual ~CapturePlan() = default;
   // The values of all of the probe's watches, over all threads; with `outcome` the condition's first, named
   // "". Throws cannot_debug, with the reason, where this plan cannot get at them.
-  virtual ThreadValues valuesAt(const instrumenter::Probe&) = 0;
+  // Uniforms that the driver dropped have no value.
+  ThreadValues valuesAt(const instrumenter::Probe&);
+
+ protected:
+  Session& session_;
+
+ private:
+  virtual ThreadValues look(const instrumenter::Probe&) = 0;
 };
 
 std::unique_ptr<CapturePlan> makePlan(Session&, Plan);

@@ -161,17 +161,12 @@ class ProbedRun {
     Step& step = push(Step::Kind::condition, position);
     step.outcome = formatValue(values.front().value);
     addChanges(step, values, watched, false);
+    if (const VariableId declared = frontend::declaredByCondition(shader_, position.statement);
+        declared != kNone)
+      addChanges(step, {{variable(declared).name, values.front().value}}, {declared}, true);
     const std::vector<Side> sides = navigation_.sides(position);
-    const auto taken = std::find_if(sides.begin(), sides.end(), [&](const Side& side) {
-      return side.name == step.outcome || side.name == "case " + step.outcome;
-    });
-    if (taken != sides.end()) return taken->next;
-    const auto otherwise = std::find_if(sides.begin(), sides.end(), [](const Side& side) {
-      return side.name == "default" || side.name == "no case";
-    });
-    if (otherwise == sides.end())
-      throw Error(Outcome::failed, "a branch went no way that is known; report this shader");
-    return otherwise->next;
+    const Value& outcome = values.front().value;
+    return sides.at(sideOf(sides, outcome.type.basic, outcome.words.at(0))).next;
   }
 
   Position carryOut(const Position& position) {

@@ -150,7 +150,7 @@ class Walk {
   }
 
   void remember(const RecordLayout& layout, VariableId id, const Value& value) {
-    const bool declared_empty = declaresWithoutValue(layout, id) || isPartOfOutput(layout, id);
+    const bool declared_empty = declaresWithoutValue(layout, id) || isPartOfUndefined(layout, id);
     const auto found = known_.find(id);
     KnownValue next{value, std::vector<bool>(value.words.size(), !declared_empty)};
     if (!declaresWithoutValue(layout, id) && found != known_.end() &&
@@ -171,12 +171,15 @@ class Walk {
     return false;
   }
 
-  // Outputs begin undefined; a statement that does not begin with `output =` may write a part of one.
-  bool isPartOfOutput(const RecordLayout& layout, VariableId id) const {
+  // Outputs and globals begin undefined; a statement that does not begin with `output =` may write a part of
+  // one.
+  bool isPartOfUndefined(const RecordLayout& layout, VariableId id) const {
     const frontend::Variable& variable = shader_.variables[static_cast<std::size_t>(id)];
     const bool is_output =
         variable.storage == frontend::Storage::out || variable.storage == frontend::Storage::builtin;
-    if (!is_output || layout.statement == kNone) return false;
+    const bool is_global =
+        variable.storage == frontend::Storage::global && !frontend::hasInitializer(shader_, id);
+    if ((!is_output && !is_global) || layout.statement == kNone) return false;
     const frontend::TokenIndex first = statement(layout.statement).tokens.first;
     const auto text = [&](frontend::TokenIndex i) {
       return shader_.tokens[static_cast<std::size_t>(i)].text;
@@ -213,6 +216,10 @@ VariableId recordedVariable(const Shader& shader, const RecordLayout& layout, co
     for (const auto& declarator : shader.statements[static_cast<std::size_t>(at.init)].declarators) {
       if (named(declarator.variable)) return declarator.variable;
     }
+  }
+  if (layout.event == Event::condition) {
+    const VariableId declared = frontend::declaredByCondition(shader, layout.statement);
+    if (named(declared)) return declared;
   }
   const auto found = std::find_if(at.scope.rbegin(), at.scope.rend(), named);
   return found != at.scope.rend() ? *found : kNone;

@@ -1,5 +1,6 @@
 #include "session/recording_plan.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "session/hit_values.h"
@@ -16,6 +17,15 @@ void requireRecorded(const Probe& probe) {
       Outcome::cannot_debug,
       "a recording does not tell the calls of a function apart, nor the places inside of a statement; "
       "take --plan single");
+}
+
+// What no statement sets, inputs, uniforms and constants, has no record, and the same value all the time.
+bool isGiven(const frontend::Shader& shader, const frontend::Watch& watch) {
+  if (watch.variable == frontend::kNone || shader.variables[static_cast<std::size_t>(watch.variable)].written)
+    return false;
+  const frontend::StatementId body = shader.functions[static_cast<std::size_t>(shader.main)].body;
+  const frontend::Scope& scope = shader.statements[static_cast<std::size_t>(body)].scope;
+  return std::find(scope.begin(), scope.end(), watch.variable) != scope.end();
 }
 
 }  // namespace
@@ -39,20 +49,51 @@ void RecordingPlan::record() {
       shown_.push_back(found == by_invocation.end() ? -1 : found->second);
     }
   }
+  showDiscarded();
 }
 
-ThreadValues RecordingPlan::valuesAt(const Probe& probe) {
+// Where the draw shows no thread: the one that ends in a discard there. Which of several is the nearest a
+// recording does not say.
+void RecordingPlan::showDiscarded() {
+  const auto& threads = recorded_->recording.threads;
+  std::unordered_map<std::size_t, std::vector<int>> ended;
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(threads[i].y) * static_cast<std::size_t>(session_.facts().width) +
+        static_cast<std::size_t>(threads[i].x);
+    if (threads[i].discarded && pixel < shown_.size() && shown_[pixel] < 0)
+      ended[pixel].push_back(static_cast<int>(i));
+  }
+  for (const auto& [pixel, candidates] : ended) {
+    if (candidates.size() == 1)
+      shown_[pixel] = candidates.front();
+    else
+      ++unclear_;
+  }
+}
+
+// The values of the watches that no statement sets, from a probe at main's start.
+ThreadValues RecordingPlan::given(const std::vector<frontend::Watch>& watches) {
+  const frontend::Shader& shader = session_.shader(Stage::fragment);
+  Probe start;
+  start.statement = shader.functions[static_cast<std::size_t>(shader.main)].body;
+  for (const frontend::Watch& watch : watches)
+    if (isGiven(shader, watch)) start.watches.push_back(watch);
+  return start.watches.empty() ? ThreadValues() : session::valuesAt(session_, start);
+}
+
+ThreadValues RecordingPlan::look(const Probe& probe) {
   requireRecorded(probe);
   if (!recorded_) record();
   const frontend::Shader& shader = session_.shader(Stage::fragment);
+  const ThreadValues given = this->given(probe.watches);
   ThreadValues result;
   result.width = session_.facts().width;
   result.height = session_.facts().height;
   result.statement = probe.statement;
   result.check = recorded_->execution.check;
-  if (shader.traits.uses_discard)
-    result.check.left_out =
-        "threads that end in a discard are left out by this plan; --plan single shows them";
+  if (!given.values.empty()) result.check.merge(given.check);
+  int unclear = unclear_;
   result.marks.resize(shown_.size());
   const auto add = [&](const std::string& name, const frontend::Type& type) {
     const auto words = static_cast<std::size_t>(frontend::wordCount(type));
@@ -60,10 +101,16 @@ ThreadValues RecordingPlan::valuesAt(const Probe& probe) {
   };
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     if (shown_[p] < 0) continue;
-    result.marks[p] = instrumenter::kLaunched;
+    if (!given.values.empty() && !given.reachedAt(p)) {
+      ++unclear;
+      continue;
+    }
+    const auto& thread = recorded_->recording.threads[static_cast<std::size_t>(shown_[p])];
+    result.marks[p] = static_cast<std::uint8_t>(instrumenter::kLaunched |
+                                                (thread.discarded ? instrumenter::kDiscarded : 0));
     ++result.launched;
-    const auto visit = lastVisit(shader, recorded_->layout,
-                                 recorded_->recording.threads[static_cast<std::size_t>(shown_[p])], probe);
+    result.discarded += thread.discarded ? 1 : 0;
+    const auto visit = lastVisit(shader, recorded_->layout, thread, probe);
     if (!visit) continue;
     result.marks[p] |= instrumenter::kReached;
     const bool first = result.reached++ == 0;
@@ -72,14 +119,24 @@ ThreadValues RecordingPlan::valuesAt(const Probe& probe) {
       for (const frontend::Watch& watch : probe.watches) add(watch.expression, watch.type);
     }
     std::size_t field = 0;
-    const auto put = [&](const std::vector<std::uint32_t>& words) {
+    const auto put = [&](const std::uint32_t* words) {
       WatchedValues& values = result.values[field++];
-      std::copy(words.begin(), words.end(),
-                values.words.begin() + static_cast<std::ptrdiff_t>(p * values.stride));
+      std::copy_n(words, values.stride,
+                  values.words.begin() + static_cast<std::ptrdiff_t>(p * values.stride));
     };
-    if (probe.outcome) put(visit->outcome.value().words);
-    for (const frontend::Watch& watch : probe.watches) put(recordedValue(shader, *visit, watch).words);
+    if (probe.outcome) put(visit->outcome.value().words.data());
+    auto next = given.values.begin();
+    for (const frontend::Watch& watch : probe.watches) {
+      if (isGiven(shader, watch))
+        put((next++)->at(p));
+      else
+        put(recordedValue(shader, *visit, watch).words.data());
+    }
   }
+  if (unclear > 0)
+    result.check.left_out = "on " + std::to_string(unclear) +
+                            " pixels several threads end in a discard and are left out by this plan; --plan "
+                            "single shows the nearest";
   return result;
 }
 

@@ -95,6 +95,7 @@ struct Check {
   std::uint64_t undefined =
       0;  // components not counted above: the shader leaves them undefined (it writes no value)
   std::string left_out;  // which threads of the draw the values do not cover ("" = none), for the user
+  std::string dropped;   // which uniforms the driver has no values of ("" = none), for the user
   bool identical() const { return compared_at_all && differing == 0; }
   // "identical", "differs", "not compared"
   void merge(const Check& other);  // the check of two passes together; a fresh one takes the other over

@@ -1,59 +1,12 @@
 #include "session/stepper.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "session/values.h"
 #include "session/window.h"
 
 namespace shadestep::session {
 namespace {
-
-// The number of a switch's label; throws where it is no plain integer, for then the side that a thread takes
-// is not known here.
-std::int64_t labelValue(const Side& side, int line) {
-  std::string digits = side.name.substr(5);  // "case "
-  std::erase(digits, ' ');
-  const bool negative = digits.starts_with("-");
-  if (negative) digits.erase(0, 1);
-  while (digits.ends_with("u") || digits.ends_with("U")) digits.pop_back();
-  int base = 10;
-  if (digits.starts_with("0x") || digits.starts_with("0X")) {
-    base = 16;
-    digits.erase(0, 2);
-  } else if (digits.size() > 1 && digits.starts_with("0")) {
-    base = 8;
-  }
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
-  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
-    throw Error(Outcome::cannot_debug, "the label '" + side.name + "' of the switch at line " +
-                                           std::to_string(line) +
-                                           " is no plain number; go on with 'line N' inside of the case");
-  }
-  return negative ? -value : value;
-}
-
-// The side that a thread with this outcome takes.
-std::size_t sideOf(const std::vector<Side>& sides, const WatchedValues& outcome, std::size_t pixel,
-                   int line) {
-  if (outcome.type.basic == frontend::Basic::bool_) {
-    const std::string value = *outcome.at(pixel) != 0 ? "true" : "false";
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-      if (sides[s].name == value) return s;
-    }
-  }
-  const auto selector = static_cast<std::int64_t>(componentAsDouble(outcome.type.basic, outcome.at(pixel)));
-  std::size_t otherwise = sides.size() - 1;
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    if (sides[s].name == "default" || sides[s].name == "no case") {
-      otherwise = s;
-    } else if (labelValue(sides[s], line) == selector) {
-      return s;
-    }
-  }
-  return otherwise;
-}
 
 const WatchedValues* valueOf(const ThreadValues& threads, const std::string& name) {
   const auto found = std::find_if(threads.values.begin(), threads.values.end(),
@@ -149,13 +102,12 @@ const std::vector<TakenSide>& Stepper::sides() {
 
   const ThreadValues& threads = here({});
   const WatchedValues& outcome = threads.values.front();
-  const int line = shader_.statements[static_cast<std::size_t>(position_.statement)].place.line;
   std::vector<TakenSide> ways;
   for (const Side& side : sides)
     ways.push_back({side, 0, std::vector<std::uint8_t>(threads.marks.size(), 0)});
   for (std::size_t p = 0; p < threads.marks.size(); ++p) {
     if (!threads.reachedAt(p)) continue;
-    TakenSide& taken = ways[sideOf(sides, outcome, p, line)];
+    TakenSide& taken = ways[sideOf(sides, outcome.type.basic, *outcome.at(p))];
     ++taken.threads;
     taken.mask[p] = 1;
   }

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "session/recorded_visits.h"
 #include "session/thread_run.h"
 #include "session/values.h"
 
@@ -109,27 +110,6 @@ class Follower {
 
   // ---- values
 
-  // The variable that a field's name means at the step.
-  VariableId variableOf(const RecordLayout& layout, const std::string& name) const {
-    const auto named = [&](VariableId id) {
-      return id != kNone && shader_.variables[static_cast<std::size_t>(id)].name == name;
-    };
-    if (layout.statement != kNone) {
-      const frontend::Statement& at = statement(layout.statement);
-      for (const auto& declarator : at.declarators) {
-        if (named(declarator.variable)) return declarator.variable;
-      }
-      if (at.init != kNone) {
-        for (const auto& declarator : statement(at.init).declarators) {
-          if (named(declarator.variable)) return declarator.variable;
-        }
-      }
-      const auto found = std::find_if(at.scope.rbegin(), at.scope.rend(), named);
-      if (found != at.scope.rend()) return *found;
-    }
-    return kNone;
-  }
-
   // Remembers a value; true if it is new or different.
   bool changes(VariableId variable, const Value& value) {
     if (variable == kNone) return true;
@@ -157,7 +137,7 @@ class Follower {
   void addChanges(Step& step, const RecordLayout& layout, const Record& record, std::size_t first,
                   bool all = false) {
     for (std::size_t i = first; i < layout.fields.size(); ++i) {
-      const VariableId variable = variableOf(layout, layout.fields[i].name);
+      const VariableId variable = recordedVariable(shader_, layout, layout.fields[i].name);
       const bool differs = changes(variable, record.values[i]);
       const bool declared = declares(layout, variable);
       const bool is_global =

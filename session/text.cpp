@@ -9,6 +9,7 @@ namespace shadestep::session {
 
 std::string describe(const Check& check) {
   std::string left_out = check.left_out.empty() ? "" : "\nnote: " + check.left_out;
+  if (!check.dropped.empty()) left_out += "\nnote: " + check.dropped;
   if (check.undefined > 0) {
     left_out += "\nnote: the shader leaves " + withThousands(check.undefined) +
                 " more components of its outputs unwritten, hence undefined: they are not compared";
@@ -69,6 +70,7 @@ std::string errorName(std::uint32_t error) {
 std::string asCsv(const ThreadValues& threads) {
   std::string csv = "x,y";
   for (const WatchedValues& watched : threads.values) {
+    if (!watched.no_value.empty()) continue;
     for (const auto& component : frontend::components(watched.type))
       csv += "," + watched.name + component.access;
   }
@@ -80,6 +82,7 @@ std::string asCsv(const ThreadValues& threads) {
       if (!threads.reachedAt(pixel)) continue;
       csv += std::to_string(x) + "," + std::to_string(y);
       for (const WatchedValues& watched : threads.values) {
+        if (!watched.no_value.empty()) continue;
         const std::uint32_t* word = watched.at(pixel);
         for (const auto& component : frontend::components(watched.type)) {
           csv += "," + formatComponent(component.basic, word);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "instrumenter/recording.h"
+#include "session/dropped_uniforms.h"
 #include "session/probed_run.h"
 
 namespace shadestep::session {
@@ -137,7 +138,11 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
     // the same.
     if (error.outcome() != Outcome::cannot_debug || hit > 0) throw;
   }
-  if (!prepared) return followPixelByProbes(session, x, y);
+  if (!prepared) {
+    ThreadRun run = followPixelByProbes(session, x, y);
+    run.check.dropped = droppedUniforms(session);
+    return run;
+  }
   const Session::Recorded recorded = recordPixel(session, *prepared, x, y);
   const PixelHits hits = hitsOn(recorded, x, y);
   const int chosen = pickHit(hits, x, y, hit);
@@ -154,6 +159,7 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
   run.steps = stepsOf(session.shader(Stage::fragment), recorded.layout, thread);
   run.outputs = outputsAt(recorded.execution, x, y);
   run.check = recorded.execution.check;
+  run.check.dropped = droppedUniforms(session);
   return run;
 }
 

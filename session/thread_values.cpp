@@ -216,6 +216,7 @@ ThreadValues valuesAt(Session& session, Probe probe) {
 
 std::vector<ComponentStatistics> statistics(const ThreadValues& threads, const WatchedValues& values) {
   std::vector<ComponentStatistics> result;
+  if (!values.no_value.empty()) return result;
   std::size_t word = 0;
   for (const frontend::Component& component : frontend::components(values.type)) {
     ComponentStatistics one;

@@ -24,6 +24,7 @@ struct WatchedValues {
   frontend::Type type;
   std::size_t stride = 0;            // words per thread, in canonical order (frontend::components)
   std::vector<std::uint32_t> words;  // width*height*stride, rows bottom up; 0 where not reached
+  std::string no_value = {};         // why there is none, for the user ("" = there is one); then `words` are 0
 
   const std::uint32_t* at(std::size_t pixel) const { return words.data() + pixel * stride; }
   instrumenter::Value valueAt(std::size_t pixel) const { return {type, {at(pixel), at(pixel) + stride}}; }
@@ -66,7 +67,7 @@ void addPass(ThreadValues&, const ThreadWords&, const instrumenter::AttachmentLa
 // The statement and call path that a selection means. Throws nothing_matches.
 instrumenter::Probe probeAt(const frontend::Shader&, const PlaceSelection&);
 
-// Statistics of one component over all threads that reached the place.
+// Statistics of one component over all threads that reached the place; none if there is no value.
 struct ComponentStatistics {
   std::string access;                 // "" or ".x", "[1].z", ".field[2]"
   double min = 0, max = 0, mean = 0;  // over finite values; 0 when there is none

@@ -69,14 +69,6 @@ std::vector<VariableId> inScope(const Shader& shader, const Probe& probe) {
   return result;
 }
 
-// A global's initializer is part of no statement.
-bool isInitialized(const Shader& shader, const frontend::Variable& variable) {
-  auto i = static_cast<std::size_t>(std::max(variable.declared, 0));
-  const auto is = [&](const char* text) { return i < shader.tokens.size() && shader.tokens[i].text == text; };
-  while (i < shader.tokens.size() && !is(";") && !is(",") && !is("=")) ++i;
-  return is("=");
-}
-
 }  // namespace
 
 std::string where(const Pixel& pixel) {
@@ -136,7 +128,8 @@ bool mayBeUndefined(const Shader& shader, VariableId id) {
       if (declarator.variable == id && declarator.initializer.empty()) return true;
     }
   }
-  return variable.storage == Storage::global && !isInitialized(shader, variable);
+  // A global's initializer is part of no statement.
+  return variable.storage == Storage::global && !frontend::hasInitializer(shader, id);
 }
 
 bool isForInit(const Shader& shader, const Statement& at) {

@@ -45,7 +45,7 @@ std::size_t windowSize(const WindowCosts& costs, nanoseconds bare) {
   return std::clamp(static_cast<std::size_t>(std::lround(std::min(best, 1e6))), kFewest, kMost);
 }
 
-ThreadValues WindowPlan::valuesAt(const instrumenter::Probe& probe) {
+ThreadValues WindowPlan::look(const instrumenter::Probe& probe) {
   if (!window_ || !window_->serves(probe)) moveTo(probe);
   if (!probe.watches.empty()) names_ = namesOf(probe);
   ThreadValues values = window_->valuesAt(probe);

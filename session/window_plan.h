@@ -25,14 +25,13 @@ std::size_t windowSize(const WindowCosts&, std::chrono::nanoseconds bare);
 
 class WindowPlan : public CapturePlan {
  public:
-  explicit WindowPlan(Session& session) : session_(session) {}
-  ThreadValues valuesAt(const instrumenter::Probe&) override;
+  using CapturePlan::CapturePlan;
 
  private:
+  ThreadValues look(const instrumenter::Probe&) override;
   void moveTo(const instrumenter::Probe&);
   std::size_t nextSize(const instrumenter::Probe&);
 
-  Session& session_;
   std::optional<Window> window_;
   std::vector<std::string> names_;  // watched last: the next window watches them too
   std::size_t probes_ = 0;          // of the window

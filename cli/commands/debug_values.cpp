@@ -45,6 +45,10 @@ Json asJson(const ThreadValues& threads, const std::optional<std::size_t>& pixel
   document["height"] = threads.height;
   Json values = Json::object();
   for (const WatchedValues& watched : threads.values) {
+    if (!watched.no_value.empty()) {
+      values[watched.name] = {{"type", glslName(watched.type)}, {"no_value", watched.no_value}};
+      continue;
+    }
     const auto statistics = session::statistics(threads, watched);
     Json one;
     one["type"] = glslName(watched.type);
@@ -87,6 +91,10 @@ void printText(const ThreadValues& threads, const DebugOptions& options,
             << describe(threads.check) << "\n";
   for (const WatchedValues& watched : threads.values) {
     std::cout << "\n" << watched.name << " (" << glslName(watched.type) << ")\n";
+    if (!watched.no_value.empty()) {
+      std::cout << "  no value: " << watched.no_value << "\n";
+      continue;
+    }
     for (const auto& component : session::statistics(threads, watched)) {
       std::cout << "  " << (component.access.empty() ? "value" : component.access);
       if (component.finite > 0) {
@@ -138,6 +146,9 @@ profiler::ValueImage asImage(const ThreadValues& threads, const WatchedValues& w
 void writeImage(const std::string& path, const ThreadValues& threads, const DebugOptions& options) {
   if (threads.values.empty()) throw session::Error(session::Outcome::usage, "--image needs --print NAME");
   const WatchedValues& watched = threads.values.front();
+  if (!watched.no_value.empty())
+    throw session::Error(session::Outcome::cannot_debug,
+                         "'" + watched.name + "' has no value to show: " + watched.no_value);
   const profiler::ValueImage image = asImage(threads, watched);
   if (path.ends_with(".exr")) {
     profiler::writeValueExr(path, image);

@@ -151,7 +151,10 @@ class Dialogue {
     for (const session::WatchedValues& watched : threads.values) {
       Json one = {{"name", watched.name}, {"type", glslName(watched.type)}};
       if (pixel_) one["picked"] = nullptr;
-      if (pixel_ && threads.reachedAt(*pixel_)) {
+      if (!watched.no_value.empty()) {
+        one["no_value"] = watched.no_value;
+        if (pixel_) one["picked_text"] = "no value: " + watched.no_value;
+      } else if (pixel_ && threads.reachedAt(*pixel_)) {
         one["picked"] = toJson(watched.valueAt(*pixel_));
         one["picked_text"] = session::formatValue(watched.valueAt(*pixel_));
       }

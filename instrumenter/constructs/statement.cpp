@@ -43,8 +43,11 @@ bool isForInit(const Shader& shader, StatementId id) {
 void putAround(Edits& edits, const Shader& shader, StatementId id, const std::string& before,
                const std::string& after) {
   if (before.empty() && after.empty()) return;
-  const bool lone = isLoneBody(shader, id);
-  edits.wrap(statementAt(shader, id).tokens, lone ? "{ " + before : before, lone ? after + " }" : after);
+  const frontend::TokenRange tokens = statementAt(shader, id).tokens;
+  if (isLoneBody(shader, id))
+    edits.wrapInBraces(tokens, before, after);
+  else
+    edits.wrap(tokens, before, after);
 }
 
 void putAtBodyStart(Edits& edits, const Shader& shader, StatementId body, const std::string& text) {

@@ -3,7 +3,7 @@
 bool sd_record(int id, int words) {
   if (!sd_on) return false;
   int start = sd_wanted;
-  sd_wanted = min(start + words + 1, 2000000000);
+  if (start < 2000000000) sd_wanted = start + words + 1;
   if (sd_wanted > sd_room) return false;
   sd_words[sd_base + start] = id;
   sd_at = sd_base + start + 1;

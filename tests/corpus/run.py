@@ -3,7 +3,8 @@
 
     scripts/corpus [TEST...] [--list FILE] [--sample N] [--minutes M] [--jobs 2] [--timeout S] [--budget S] [--out DIR]
 
-TEST: paths below piglit's directory (tests/spec/..., generated_tests/spec/...), or patterns of such paths.
+TEST: paths below piglit's directory (tests/spec/..., generated_tests/spec/...), or patterns of such paths; a
+directory stands for all .shader_test files below it: 'tests/spec/glsl-[1-4].[0-9]*' is what every version of GLSL has.
 Default: the fixed list tests/corpus/list-300.txt. Writes results.jsonl (a line a test, with every failure) and
 table.md to --out (build/corpus), and prints the table. Exit status: 0 if nothing failed, 1 if something did,
 77 if piglit is not installed.
@@ -146,7 +147,9 @@ def skipped(entries: list[dict]) -> str:
 
 def select(root: Path, options: argparse.Namespace) -> list[str]:
     if options.tests:
-        tests = [str(path.relative_to(root)) for pattern in options.tests for path in sorted(root.glob(pattern))]
+        found = [path for pattern in options.tests for path in sorted(root.glob(pattern))]
+        files = [file for path in found for file in (sorted(path.rglob("*.shader_test")) if path.is_dir() else [path])]
+        tests = list(dict.fromkeys(str(file.relative_to(root)) for file in files if file.suffix == ".shader_test"))
     else:
         tests = [line for line in options.list.read_text().split("\n") if line and not line.startswith("#")]
     if options.sample and options.sample < len(tests):

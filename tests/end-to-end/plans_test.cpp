@@ -54,10 +54,69 @@ TEST_F(Plans, ShowTheSame) {
   }
 }
 
+TEST_F(Plans, ARecordingKnowsInputsToo) {
+  const Finished done = debug({"--at", "11", "--print", "gl_FragCoord.xy,sum", "--plan", "recording", "--csv",
+                               "given.csv", "--json"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_EQ(done.json()["check"]["outputs"], "identical");
+  const auto rows = readCsv(scratch_.file("given.csv"));
+  ASSERT_EQ(rows.size(), 16U * 15U) << "the first pixel of each row iterates never";
+  for (const auto& row : rows) {
+    EXPECT_EQ(std::stod(row[2]), std::stod(row[0]) + 0.5);
+    EXPECT_EQ(std::stod(row[3]), std::stod(row[1]) + 0.5);
+  }
+}
+
 TEST_F(Plans, SayWhatARecordingDoesNotHold) {
-  const Finished done = debug({"--at", "11", "--print", "gl_FragCoord", "--plan", "recording"});
+  const Finished done = debug({"--at", "5", "--call", "11", "--print", "b", "--plan", "recording"});
   EXPECT_EQ(done.status, 4);
-  EXPECT_NE(done.err.find("'gl_FragCoord' is not in the recording"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("does not tell the calls of a function apart"), std::string::npos) << done.err;
+}
+
+// `size` is set to 16, 16 by the program, which never learns that the driver took it away.
+constexpr const char* kDropped = R"glsl(#version 430
+uniform vec2 size;
+out vec4 color;
+void main() {
+  vec2 half_size = 0.5 * size;
+  vec2 p = gl_FragCoord.xy;
+  if (p.x > half_size.x) half_size = p;
+  color = vec4(p, 0.0, 1.0);
+}
+)glsl";
+
+TEST_F(Plans, AUniformThatTheDriverDroppedHasNoValue) {
+  std::ofstream(scratch_.file("shader.frag")) << kDropped;
+  for (const char* plan : {"single", "window", "recording"}) {
+    const Json values =
+        debug({"--at", "8", "--print", "size,size.x,p.x,half_size", "--plan", plan, "--json"}).json();
+    for (const char* name : {"size", "size.x"}) {
+      EXPECT_FALSE(values.at("values").at(name).contains("max")) << plan << values;
+      EXPECT_TRUE(values.at("values").at(name).at("no_value").is_string()) << plan;
+    }
+    EXPECT_EQ(values.at("values").at("p.x").at("max"), 15.5) << plan;
+    const std::string dropped = values.at("check").at("dropped");
+    EXPECT_NE(dropped.find("'size'"), std::string::npos) << dropped;
+    EXPECT_NE(dropped.find("perhaps in 'half_size'"), std::string::npos) << dropped;
+  }
+  const Finished csv = debug({"--at", "8", "--print", "size,p.x", "--csv", "dropped.csv"});
+  EXPECT_EQ(csv.status, 0) << csv.err;
+  EXPECT_EQ(readFile(scratch_.file("dropped.csv")).substr(0, 8), "x,y,p.x\n");
+  EXPECT_NE(csv.out.find("no value: the driver dropped this uniform"), std::string::npos) << csv.out;
+  EXPECT_EQ(debug({"--at", "8", "--print", "size", "--image", "size.png"}).status, 4);
+  const Finished run = debug({"--pixel", "3,3"});
+  EXPECT_NE(run.out.find("zero stands for them, also in what is computed from them: perhaps in 'half_size'"),
+            std::string::npos)
+      << run.out;
+}
+
+TEST_F(Plans, UniformsThatAreAliveHaveTheirs) {
+  std::string text = kDropped;
+  text.replace(text.find("vec4(p"), 6, "vec4(half_size");
+  std::ofstream(scratch_.file("shader.frag")) << text;
+  const Json values = debug({"--at", "8", "--print", "size", "--json"}).json();
+  EXPECT_EQ(values.at("values").at("size").at("max"), Json::array({16, 16}));
+  EXPECT_TRUE(values.at("check").at("dropped").is_null());
 }
 
 TEST_F(Plans, FollowAPixelToTheSameOutputs) {

@@ -214,9 +214,13 @@ TEST_P(Agreement, SingleEqualsRecordingBitForBit) {
     probe.statement = step.statement;
     probe.call_path = step.call_path;
     probe.iterations = step.iterations;
+    const frontend::VariableId declared = frontend::declaredByCondition(shader, step.statement);
     for (const Field& field : layout.fields) {
       if (field.name.empty())
         probe.outcome = true;
+      else if (declared != frontend::kNone &&
+               field.name == shader.variables[static_cast<std::size_t>(declared)].name)
+        EXPECT_EQ(step.record->values.back(), step.record->values.front());  // the outcome is its value
       else
         probe.watches.push_back(frontend::Watch{field.name, frontend::kNone, field.type});
     }

@@ -38,6 +38,14 @@ TEST_F(EditsTest, WhatWasRegisteredEarlierIsOuter) {
   EXPECT_EQ(applied(), "a ( [ < b c > ] ) d ");
 }
 
+TEST_F(EditsTest, ARangeGetsOnePairOfBraces) {
+  edits.insertAfter(2, "outside");
+  edits.wrapInBraces({1, 2}, "(", ")");
+  edits.wrapInBraces({1, 2}, "", "]");
+  edits.wrapInBraces({2, 2}, "<", ">");
+  EXPECT_EQ(applied(), "a { ( b { < c > } ] ) } outside d ");
+}
+
 TEST_F(EditsTest, WrapsOfAGapEncloseItsFilling) {
   edits.wrap({2, 1}, "(", ")");
   edits.wrap({2, 1}, "[", "]");

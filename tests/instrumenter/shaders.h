@@ -257,6 +257,23 @@ void main() {
 }
 )"};
 
+inline const Body kLoneDeclarations{"lone_declarations", R"(
+float nowhere(float a, vec2 b);
+void nothing_here(inout float a);
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  int i = 17, s = 0;
+  if (false) COLOR = vec4(nowhere(1.0, place));
+  do int i = (s++, y);  // @inner
+  while (i <= 17 && s < 3);
+  if (x > 4) int s = (i += 1, 5); else int i = (s += x, 2);
+  for (int k = 0; k < x; ++k) int s = (i++, i);
+  float f = float(s);
+  if (!true) nothing_here(f);
+  COLOR = vec4(f, float(i), 0.0, 1.0);  // @end
+}
+)"};
+
 inline const Body kRays{"rays", R"(
 float volume(vec3 p) { vec3 d = p - vec3(0.5); return exp(-8.0 * dot(d, d)); }
 vec4 classify(float front, float back, float thickness) {
@@ -286,7 +303,7 @@ void main() {
 )"};
 
 inline const std::vector<Body> kBodies = {kLoops,  kNested, kFunctions, kConditions, kDiscard,
-                                          kValues, kSwitch, kOddForms,  kRays};
+                                          kValues, kSwitch, kOddForms,  kLoneDeclarations, kRays};
 
 // Analyses a text that is known to be good.
 inline frontend::Shader analysed(const std::string& text) {

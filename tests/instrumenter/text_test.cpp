@@ -86,8 +86,8 @@ TEST(Loop, CountsInItsCondition) {
                "true)); break;",
                0, {0});
   expectProbed("void main() {\nint i = 0;\ndo\ni++;\nwhile (i < n);\n}", 8, When::before,
-               "sd_iteration0 = -1; do { sd_iteration0++; { (sd_iteration0 == 2 && (CAPTURE, true)); i++; } "
-               "} while (i < n);",
+               "sd_iteration0 = -1; do { sd_iteration0++; (sd_iteration0 == 2 && (CAPTURE, true)); i++; } "
+               "while (i < n);",
                0, {2});
 }
 

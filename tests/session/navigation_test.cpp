@@ -81,6 +81,34 @@ TEST(Navigation, ChoosesTheSidesOfAnIf) {
   EXPECT_EQ(other.over(), "6");
 }
 
+TEST(Navigation, ASwitchGoesByTheValuesOfItsLabels) {
+  const auto analysis =
+      frontend::analyse(frontend::Stage::fragment,
+                        {"#version 330 core\nout vec4 o;\nuniform int u;\nuniform uint v;\nconst int two = "
+                         "2;\nvoid main() {\n switch (u) {\n"
+                         "  case -1: break;\n  case 0x10: break;\n  case two + 1: break;\n  default: "
+                         "break;\n  case 010: break;\n }\n"
+                         " switch (v) { case 7u: break; case 4294967295u: o = vec4(1.0); }\n}"},
+                        {});
+  ASSERT_TRUE(analysis.shader) << analysis.error;
+  const Navigation navigation(*analysis.shader);
+  const Position at = navigation.over(navigation.start());
+  const std::vector<Side> sides = navigation.sides(at);
+  ASSERT_EQ(sides.size(), 5u);
+  using frontend::Basic;
+  EXPECT_EQ(sideOf(sides, Basic::int_, static_cast<std::uint32_t>(-1)), 0u);
+  EXPECT_EQ(sideOf(sides, Basic::int_, 16), 1u);
+  EXPECT_EQ(sideOf(sides, Basic::int_, 3), 2u);
+  EXPECT_EQ(sideOf(sides, Basic::int_, 8), 4u);
+  for (const std::uint32_t other : {0u, 1u, 2u, 10u, 1000u}) EXPECT_EQ(sideOf(sides, Basic::int_, other), 3u);
+
+  const std::vector<Side> of_uint = navigation.sides(navigation.over(navigation.over(sides[3].next)));
+  ASSERT_EQ(of_uint.size(), 3u);
+  EXPECT_EQ(sideOf(of_uint, Basic::uint_, 7), 0u);
+  EXPECT_EQ(sideOf(of_uint, Basic::uint_, 0xffffffff), 1u);
+  EXPECT_EQ(of_uint[sideOf(of_uint, Basic::uint_, 8)].name, "no case");
+}
+
 TEST(Navigation, CountsTheIterationsOfNestedLoops) {
   Walk walk(
       "void main() {\n for (int i = 0; i < u; ++i) {\n  int k = 0;\n  while (k < i) {\n   k++;\n  }\n  o.x "
