@@ -350,6 +350,9 @@ LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
   }
   look->threads = at.look(wanted);
   for (const session::WatchedValues& value : look->threads.values)
+    if (!value.no_value.empty()) look->refused.emplace_back(value.name, value.no_value);
+  std::erase_if(look->threads.values, [](const auto& value) { return !value.no_value.empty(); });
+  for (const session::WatchedValues& value : look->threads.values)
     look->statistics.push_back(session::statistics(look->threads, value));
   return look;
 }
