@@ -30,8 +30,8 @@ struct VerifyFailure {
   Kind kind = Kind::value;
   std::uint64_t frame = 0, draw = 0;
   int line = 0, column = 0;  // 0: the whole draw
-  // "copy", "single before", "single after", "recording", "window", "redraws", "loops", "count", "clock",
-  // "state"
+  // "copy", "single before", "single after", "choice", "behind a call", "recording", "window", "redraws",
+  // "loops", "count", "clock", "state"
   std::string plan;
   std::string variable;
   std::string detail;

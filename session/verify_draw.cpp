@@ -191,6 +191,7 @@ class DrawCheck {
     Probe probe;
     probe.statement = id;
     checkProbe(probe);
+    checkInside(id);
     if (isJump(at.kind)) return;
     probe.when = Probe::When::after;
     probe.outcome = hasCondition(at.kind);
@@ -199,6 +200,70 @@ class DrawCheck {
       probe.iterations = *iterations;
       checkProbe(probe);
     }
+  }
+
+  // Places inside of the statement's own expressions: behind the operand that decides at an operator, and
+  // behind a call.
+  void checkInside(StatementId id) {
+    Probe probe;
+    probe.statement = id;
+    probe.when = Probe::When::after;
+    probe.outcome = true;
+    for (const frontend::TokenIndex op : instrumenter::choicesOf(shader_, id)) {
+      probe.inside = op;
+      checkChoice(probe);
+    }
+    probe.outcome = false;
+    for (const frontend::CallId call : shader_.statements[static_cast<std::size_t>(id)].calls) {
+      probe.inside = shader_.calls[static_cast<std::size_t>(call)].close;
+      checkBehindCall(probe);
+    }
+  }
+
+  // Against what the recordings say that the operand was when it was last evaluated, and by a window.
+  void checkChoice(const Probe& probe) {
+    const Statement& at = shader_.statements[static_cast<std::size_t>(probe.statement)];
+    ThreadValues found;
+    if (!findings_.attempt(&at, "choice", [&] { found = valuesAt(session_, probe); })) return;
+    findings_.checkOutputs(&at, "choice", found.check);
+    windows_.add(probe, {}, found);
+    for (const RecordedPixel& one : recorded_) {
+      const auto p = static_cast<std::size_t>(one.pixel.y) * static_cast<std::size_t>(found.width) +
+                     static_cast<std::size_t>(one.pixel.x);
+      const Value* recorded = lastChoice(one, probe);
+      findings_.compared();
+      const bool same = (recorded != nullptr) == found.reachedAt(p) &&
+                        (recorded == nullptr || recorded->words == found.values.front().valueAt(p).words);
+      if (same) continue;
+      const auto text = [](bool there, const Value& value) {
+        return there ? formatValue(value) : std::string("not evaluated");
+      };
+      findings_.fail(Kind::value, &at, "choice", "",
+                     where(one.pixel) + ": the operand is " +
+                         text(found.reachedAt(p), found.values.front().valueAt(p)) + ", recorded " +
+                         text(recorded != nullptr, recorded != nullptr ? *recorded : Value()));
+    }
+  }
+
+  static const Value* lastChoice(const RecordedPixel& one, const Probe& probe) {
+    const auto& records = one.run().records;
+    for (auto record = records.rbegin(); record != records.rend(); ++record) {
+      const auto& layout = one.recorded.layout.records[static_cast<std::size_t>(record->layout)];
+      if (layout.event == instrumenter::Event::choice && layout.statement == probe.statement &&
+          layout.token == probe.inside)
+        return &record->values.at(0);
+    }
+    return nullptr;
+  }
+
+  // By a single probe and by a window. (Recordings hold no values between a call and the statement's end.)
+  void checkBehindCall(Probe probe) {
+    const Statement& at = shader_.statements[static_cast<std::size_t>(probe.statement)];
+    const std::vector<Part> watched = watch(probe);
+    ThreadValues found;
+    if (!findings_.attempt(&at, "behind a call", [&] { found = valuesAt(session_, probe); })) return;
+    findings_.checkOutputs(&at, "behind a call", found.check);
+    windows_.add(probe, watched, found);
   }
 
   // The iterations of a visit in the middle of those that the last recorded pixel makes; none if there is no

@@ -48,7 +48,7 @@ void addParts(const Part& whole, std::vector<Part>& parts) {
 std::vector<VariableId> inScope(const Shader& shader, const Probe& probe) {
   const Statement& at = shader.statements[static_cast<std::size_t>(probe.statement)];
   std::vector<VariableId> names = at.scope;
-  if (probe.when == Probe::When::after) {
+  if (probe.when == Probe::When::after && probe.inside == kNone) {
     const auto declared = [&](const std::vector<frontend::Declarator>& declarators) {
       for (const frontend::Declarator& one : declarators) {
         if (one.variable != kNone) names.push_back(one.variable);
