@@ -113,7 +113,7 @@ def values(changed: dict, truth: Step, view: list[dict], interpreter: Interprete
             problems.append(f"{name} = {got}, must be {right}")
         slot(v, truth, view)[v] = got
     for name, (v, right) in truth.values.items() if complete else ():
-        if too_wide(v.type) or v.name.startswith("gl_") or v.storage == "condition":
+        if too_wide(v.type) or v.name.startswith("gl_") or v.storage in ("condition", "buffer"):
             continue
         known = slot(v, truth, view).get(v)
         if known is not None:

@@ -122,8 +122,14 @@ class Interpreter:
         return {v: list(self.env[v]) for v in self.initial if self.env[v] is not None and visible and visible.get(v.name) is not v}
 
     def snapshot(self, visible: dict) -> dict:
-        return {name: (v, list(self.env[v])) for name, v in visible.items()
-                if self.env.get(v) is not None and v.storage not in ("uniform", "constant", "buffer")}
+        values = {name: (v, list(self.env[v])) for name, v in visible.items()
+                  if self.env.get(v) is not None and v.storage not in ("uniform", "constant", "buffer")}
+        # Of memory, a statement shows the place that it writes: the thread's own cell.
+        place = values.get("pix", (None, [None]))[1][0]
+        for v, cells in self.memory.items():
+            if v.type.dims and place is not None and visible.get(v.name) is v and 0 <= place < len(cells):
+                values[f"{v.name}[pix]"] = (Variable(f"{v.name}[pix]", v.type.element(), "buffer"), [cells[place]])
+        return values
 
     def call(self, function: Function, args: list) -> list | None:
         for p, value in zip(function.params, args):
@@ -310,6 +316,8 @@ class Interpreter:
             if store is None:
                 store = self.env[e.data] = [None] * e.type.words()
             return store, list(range(len(store)))
+        if not e.args:
+            raise Undefined("a value is no place")  # what the reducer may try
         store, at = self.place(e.args[0])
         t = e.args[0].type
         if e.kind == "index":
