@@ -16,7 +16,7 @@ Debugger::Debugger(QObject* parent) : QObject(parent) {
 }
 
 Debugger::~Debugger() {
-  if (process_end_) close(static_cast<int>(process_end_->socket()));
+  forgetProcess();
 }
 
 // ---- the program
@@ -38,7 +38,7 @@ void Debugger::leaveStop() {
   target_ = nullptr;
   loops_ = nullptr;
   gl_state_.clear();
-  process_end_.reset();
+  forgetProcess();
   Q_EMIT callChanged();
   Q_EMIT stopChanged();
 }
@@ -64,7 +64,7 @@ QString drawName(std::uint64_t frame, std::uint64_t draw) {
 }  // namespace
 
 void Debugger::start(const ProgramSpec& spec) {
-  if (program_ == Program::running) endProgram();
+  if (program_ == Program::running) backend_.endProgramNow();
   spec_ = spec;
   draws_.clear();
   fragments_ = {};
@@ -218,22 +218,32 @@ void Debugger::arrived(Stop stop) {
   Q_EMIT stopChanged();
   if (stop_->draw.reason.empty()) {
     restartShader();
-    backend_.ask(
-        tr("Reading the target"), "target", [](Debuggee& debuggee) { return debuggee.target(); },
-        [this](const TargetPtr& target) {
-          target_ = target;
-          Q_EMIT targetChanged();
-        });
+    askTarget();
   } else {
     Q_EMIT message(QString::fromStdString(stop_->draw.reason), true);
   }
 }
 
+void Debugger::askTarget() {
+  backend_.ask(
+      tr("Reading the target"), "target", [](Debuggee& debuggee) { return debuggee.target(); },
+      [this](const TargetPtr& target) {
+        target_ = target;
+        Q_EMIT targetChanged();
+      });
+}
+
+void Debugger::forgetProcess() {
+  if (!process_end_) return;
+  process_end_->setEnabled(false);
+  close(static_cast<int>(process_end_->socket()));
+  process_end_.release()->deleteLater();  // it may be what tells of the end right now
+}
+
 // The program may end, or be ended, while it stands at a draw.
 void Debugger::watchProcess() {
   const int process = backend_.process();
-  if (process_end_) close(static_cast<int>(process_end_->socket()));
-  process_end_.reset();
+  forgetProcess();
   const int descriptor = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
   if (descriptor < 0) return;
   process_end_ = std::make_unique<QSocketNotifier>(descriptor, QSocketNotifier::Read);
@@ -291,52 +301,6 @@ int Debugger::runStep() const {
   return -1;
 }
 
-// ---- what the user marks
-
-void Debugger::pick(std::optional<Pixel> pixel) {
-  if (pixel == pixel_) return;
-  pixel_ = pixel;
-  run_ = nullptr;
-  run_reason_.clear();
-  Q_EMIT pixelChanged();
-  Q_EMIT runChanged();
-  if (program_ != Program::stopped || !stop_->draw.reason.empty()) return;
-  backend_.ask(
-      tr("Picking a thread"), "pick", [pixel](Debuggee& debuggee) { debuggee.pick(pixel); }, [] {});
-  followRun();
-}
-
-void Debugger::setBreakpoint(int line, std::optional<Breakpoint> breakpoint) {
-  if (breakpoint) {
-    breakpoints_[line] = *breakpoint;
-  } else {
-    breakpoints_.remove(line);
-  }
-  Q_EMIT breakpointsChanged();
-}
-
-void Debugger::toggleBreakpoint(int line) {
-  setBreakpoint(line, breakpoints_.contains(line) ? std::nullopt : std::optional(Breakpoint()));
-}
-
-void Debugger::addWatch(const QString& expression) {
-  const QString text = expression.trimmed();
-  if (text.isEmpty() || watches_.contains(text)) return;
-  watches_.push_back(text);
-  Q_EMIT watchesChanged();
-  lookAgain();
-}
-
-void Debugger::removeWatch(const QString& expression) {
-  if (watches_.removeAll(expression) > 0) Q_EMIT watchesChanged();
-}
-
-void Debugger::show(const PictureSource& picture) {
-  picture_ = picture;
-  Q_EMIT pictureChanged();
-  if (picture.kind == PictureSource::Kind::value) lookAgain();
-}
-
 // ---- all of the draw
 
 void Debugger::askLoops() {
@@ -380,6 +344,7 @@ void Debugger::setFragments(const session::FragmentChoice& choice) {
     return debuggee.moveTo(position);
   });
   fragments_ = choice;
+  askTarget();
 }
 
 }  // namespace shadestep::gui

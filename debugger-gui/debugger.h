@@ -151,6 +151,8 @@ class Debugger : public QObject {
   void followRun();
   void failed(const QString& what, const QString& sentence, session::Outcome);
   void watchProcess();
+  void forgetProcess();
+  void askTarget();
   void askPlace(const QString& what, std::function<Place(Debuggee&)> work);
   void goBackTo(int deepest, bool inside_statements);
   void backAlongWay();

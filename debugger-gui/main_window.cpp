@@ -8,7 +8,6 @@
 #include <QInputDialog>
 #include <QSettings>
 #include <QStatusBar>
-#include <QTimer>
 #include <QVBoxLayout>
 
 #include "debugger-gui/start_dialog.h"
@@ -52,6 +51,8 @@ MainWindow::MainWindow()
   row->addWidget(notice_text_, 1);
   row->addWidget(close_notice, 0, Qt::AlignTop);
   notice_->hide();
+  notice_timer_.setSingleShot(true);
+  connect(&notice_timer_, &QTimer::timeout, notice_, &QWidget::hide);
   sources_->setDocumentMode(true);
   column->addWidget(notice_);
   column->addWidget(sources_, 1);
@@ -260,6 +261,10 @@ void MainWindow::showMessage(const QString& sentence, bool is_error) {
                                  "QLabel { border: 0; color: %3; }")
                              .arg(theme().panel.name(), edge.name(), theme().text.name()));
   notice_->show();
+  // What went well needs no answer.
+  if (is_error) return notice_timer_.stop();
+  constexpr int kShownMs = 6000;
+  notice_timer_.start(kShownMs);
 }
 
 void MainWindow::setTheme(ThemeChoice choice) {

@@ -7,6 +7,7 @@
 #include <QMap>
 #include <QProgressBar>
 #include <QTabWidget>
+#include <QTimer>
 #include <QToolButton>
 
 #include "debugger-gui/debugger.h"
@@ -68,6 +69,7 @@ class MainWindow : public QMainWindow {
   StackPanel* stack_;
   QFrame* notice_;
   QLabel* notice_text_;
+  QTimer notice_timer_;
   QLabel *state_, *driver_, *busy_;
   QProgressBar* progress_;
   QToolButton* cancel_;

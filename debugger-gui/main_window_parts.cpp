@@ -191,6 +191,7 @@ void MainWindow::makeStatus() {
     }
   });
   statusBar()->setSizeGripEnabled(false);
+  statusBar()->setContentsMargins(8, 0, 8, 0);
   statusBar()->addWidget(state_);
   statusBar()->addWidget(busy_, 1);
   statusBar()->addPermanentWidget(progress_);

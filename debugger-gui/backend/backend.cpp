@@ -10,8 +10,10 @@ Backend::Backend(QObject* parent) : QObject(parent), worker_(std::make_unique<Wo
 }
 
 Backend::~Backend() {
+  constexpr std::chrono::milliseconds kPatience{1000};
   worker_->clear();
-  if (outstanding_ > 0) debuggee_.endWait();
+  debuggee_.close();
+  if (!worker_->idleWithin(kPatience)) debuggee_.endWait();
   worker_.reset();  // waits for what runs; nothing of it is delivered any more
 }
 

@@ -70,7 +70,8 @@ class Debuggee {
   // Any thread: asks what takes long to stop, and ends a wait for a program that does not get to where it
   // should, with the program.
   void cancel() { cancelled_ = true; }
-  void endWait();
+  void endWait();    // asked for a second time, the program is not asked any more
+  void close();      // endWait, and no program starts after it
   void interrupt();  // stops a running program at its next call
   void clearCancel() { cancelled_ = false; }
   int process() const { return process_; }  // 0: none
@@ -97,7 +98,9 @@ class Debuggee {
   session::FragmentChoice fragments_;
   std::optional<profiler::Earlier> earlier_;
   std::atomic<bool> cancelled_ = false;
+  std::atomic<bool> closed_ = false;
   std::atomic<int> process_ = 0;
+  std::atomic<int> asked_to_end_ = 0;  // the process that endWait has asked
   std::mutex interruptible_mutex_;
   session::Session* interruptible_ = nullptr;  // session_, for interrupt()
 };

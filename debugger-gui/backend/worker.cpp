@@ -28,6 +28,11 @@ std::size_t Worker::post(const std::string& key, std::function<void()> task) {
   return dropped;
 }
 
+bool Worker::idleWithin(std::chrono::milliseconds most) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, most, [this] { return !running_ && tasks_.empty(); });
+}
+
 std::size_t Worker::clear() {
   const std::lock_guard lock(mutex_);
   const std::size_t dropped = tasks_.size();
@@ -44,8 +49,12 @@ void Worker::run() {
       if (tasks_.empty()) return;
       task = std::move(tasks_.front());
       tasks_.pop_front();
+      running_ = true;
     }
     task.run();
+    const std::lock_guard lock(mutex_);
+    running_ = false;
+    changed_.notify_all();
   }
 }
 

@@ -1,6 +1,7 @@
 // One thread that carries out what it is given, in order.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -20,6 +21,8 @@ class Worker {
   // A task of the same key that still waits is dropped; those without a key all run. Tasks do not throw.
   // Returns how many were dropped.
   std::size_t post(const std::string& key, std::function<void()> task);
+  // Waits for what runs, no longer than this; false if it still runs.
+  bool idleWithin(std::chrono::milliseconds);
   // Drops all that still wait; returns how many.
   std::size_t clear();
 
@@ -33,6 +36,7 @@ class Worker {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Task> tasks_;
+  bool running_ = false;
   bool ending_ = false;
   std::thread thread_;
 };

@@ -76,9 +76,9 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
   const DrawEntry* entry = drawAt(index);
   if (entry == nullptr) {
     const Frame& frame = frames_[static_cast<std::size_t>(index.row())];
-    if (role == Qt::DisplayRole && index.column() == kDraw) return tr("Frame %1").arg(frame.number);
-    if (role == Qt::DisplayRole && index.column() == kCall)
-      return tr("%n draw(s) seen", nullptr, static_cast<int>(frame.count));
+    if (role == Qt::DisplayRole && index.column() == kDraw)
+      return frame.count == 1 ? tr("Frame %1, one draw seen").arg(frame.number)
+                              : tr("Frame %1, %2 draws seen").arg(frame.number).arg(frame.count);
     if (role == Qt::ForegroundRole) return theme().faint;
     return {};
   }
@@ -101,7 +101,7 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
         return tr("%1: %2 × %3").arg(entry->framebuffer).arg(entry->viewport[2]).arg(entry->viewport[3]);
     }
   }
-  if (role == Qt::DecorationRole && index.column() == kDraw && isHere(*entry)) return icon("run");
+  if (role == Qt::DecorationRole && index.column() == kDraw && isHere(*entry)) return icon("start");
   if (role == Qt::FontRole && isHere(*entry)) {
     QFont font;
     font.setBold(true);

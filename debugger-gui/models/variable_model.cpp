@@ -215,7 +215,10 @@ QVariant VariableModel::range(const Node& node, bool high) const {
       node.target.component < 0 ? 0 : static_cast<std::size_t>(node.target.component);
   if ((node.target.component < 0 && statistics.size() != 1) || statistics[component].finite == 0) return {};
   const double number = high ? statistics[component].max : statistics[component].min;
-  return QString::fromStdString(profiler::exactText(number));
+  const frontend::Basic basic = frontend::components(value->type)[component].basic;
+  return QString::fromStdString(basic == frontend::Basic::float_
+                                    ? profiler::exactText(static_cast<float>(number))
+                                    : profiler::exactText(number));
 }
 
 QVariant VariableModel::data(const QModelIndex& index, int role) const {

@@ -48,6 +48,7 @@ const DrawEntry* FramePanel::drawAt(const QModelIndex& shown) const {
 void FramePanel::refresh() {
   model_.refresh();
   tree_->expandAll();
+  for (int frame = 0; frame < filter_.rowCount(); ++frame) tree_->setFirstColumnSpanned(frame, {}, true);
   if (!debugger_.stop()) return;
   const session::DrawStop& stop = debugger_.stop()->draw.stop;
   const QModelIndex here = filter_.mapFromSource(model_.indexOf(stop.frame, stop.draw));

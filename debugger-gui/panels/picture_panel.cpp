@@ -192,6 +192,8 @@ PicturePtr PicturePanel::current() const {
 void PicturePanel::refresh() {
   listSources();
   const PicturePtr picture = current();
+  const QString& name = debugger_.picture().name;
+  view_->setNothing(name.isEmpty() ? tr("Nothing to show here yet") : tr("%1 has no value here").arg(name));
   view_->setPicture(picture);
   const bool numbers = picture && picture->colors.empty();
   for (QWidget* tool : std::initializer_list<QWidget*>{low_, high_, automatic_, gamma_})

@@ -17,7 +17,8 @@ StackPanel::StackPanel(Debugger& debugger, QWidget* parent)
   column->setSpacing(4);
   column->addWidget(calls_, 1);
   column->addWidget(loops_);
-  new QGridLayout(loops_);
+  auto* grid = new QGridLayout(loops_);
+  grid->setColumnStretch(1, 1);
   loops_->layout()->setContentsMargins(8, 0, 8, 0);
   connect(calls_, &QListWidget::itemActivated, this,
           [this](QListWidgetItem* item) { Q_EMIT lineChosen(item->data(Qt::UserRole).toInt()); });
@@ -81,7 +82,8 @@ void StackPanel::refreshLoops() {
     auto* label = static_cast<QLabel*>(grid->itemAtPosition(row, 0)->widget());
     auto* slider = static_cast<QSlider*>(grid->itemAtPosition(row, 1)->widget());
     auto* number = static_cast<QSpinBox*>(grid->itemAtPosition(row, 2)->widget());
-    label->setText(tr("Loop at line %1, iteration").arg(loop.line));
+    label->setToolTip(tr("The iteration of the loop at line %1").arg(loop.line));
+    label->setText(tr("Loop %1").arg(loop.line));
     const QSignalBlocker quiet_slider(slider);
     const QSignalBlocker quiet_number(number);
     slider->setRange(0, std::max(mostIterations(loop), loop.iteration));

@@ -15,6 +15,7 @@ Theme light() {
   theme.faint = "#6b7280";
   theme.border = "#d5d9df";
   theme.accent = "#2563b0";
+  theme.selection = theme.accent;
   theme.current_line = "#fff3c4";
   theme.condition_line = "#dff0e3";
   theme.keyword = "#7a3e9d";
@@ -46,6 +47,7 @@ Theme dark() {
   theme.faint = "#8f97a3";
   theme.border = "#3a3f47";
   theme.accent = "#5b9bea";
+  theme.selection = "#2f5f9e";
   theme.current_line = "#4a4320";
   theme.condition_line = "#24402c";
   theme.keyword = "#c792ea";
@@ -77,7 +79,7 @@ QPalette paletteOf(const Theme& theme) {
   palette.setColor(QPalette::ButtonText, theme.text);
   palette.setColor(QPalette::ToolTipBase, theme.panel);
   palette.setColor(QPalette::ToolTipText, theme.text);
-  palette.setColor(QPalette::Highlight, theme.accent);
+  palette.setColor(QPalette::Highlight, theme.selection);
   palette.setColor(QPalette::HighlightedText, Qt::white);
   palette.setColor(QPalette::Link, theme.accent);
   palette.setColor(QPalette::Mid, theme.border);
@@ -106,7 +108,7 @@ QString styleSheet(const Theme& theme) {
     QDockWidget::title { background: %1; padding: 5px 8px 4px 8px; text-align: left; }
     QTreeView, QTableView, QListView { border: 0; border-top: 1px solid %2; }
     QTreeView::item, QTableView::item { padding: 2px 4px; border: 0; }
-    QTreeView::item:selected, QTableView::item:selected { background: %3; color: white; }
+    QTreeView::item:selected, QTableView::item:selected { background: %7; color: white; }
     QHeaderView::section { background: %1; color: %4; border: 0; border-bottom: 1px solid %2; padding: 3px 6px; }
     QTabBar::tab { background: transparent; padding: 5px 12px; border: 0; border-bottom: 2px solid transparent;
                    color: %4; }
@@ -117,7 +119,7 @@ QString styleSheet(const Theme& theme) {
     QLineEdit, QComboBox, QSpinBox, QDoubleSpinBox { padding: 2px 4px; }
   )")
       .arg(theme.window.name(), theme.border.name(), theme.accent.name(), theme.faint.name(),
-           theme.panel.name(), theme.text.name());
+           theme.panel.name(), theme.text.name(), theme.selection.name());
 }
 
 }  // namespace

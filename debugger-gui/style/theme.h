@@ -11,7 +11,7 @@ namespace shadestep::gui {
 
 struct Theme {
   bool dark = false;
-  QColor window, panel, text, faint, border, accent;
+  QColor window, panel, text, faint, border, accent, selection;
   QColor current_line, condition_line;  // in the source
   QColor keyword, type, number, comment, string, preprocessor;
   QColor yes, no, left;       // a branch's outcomes: true, false, left the loop before

@@ -76,7 +76,9 @@ void Histogram::paintEvent(QPaintEvent*) {
   painter.setPen(theme().faint);
   const int text_height = painter.fontMetrics().height();
   const QRect head(8, 3, width() - 16, text_height);
-  painter.drawText(head, Qt::AlignLeft, title_.isEmpty() ? note_ : title_);
+  if (title_.isEmpty())
+    painter.drawText(rect().adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap, note_);
+  painter.drawText(head, Qt::AlignLeft, title_);
   if (!title_.isEmpty()) painter.drawText(head, Qt::AlignRight, note_);
   if (bins_.empty()) return;
   const QRectF plot(8, head.bottom() + 4, width() - 16, height() - 2 * text_height - 12);

@@ -11,6 +11,7 @@
 
 #include "debugger-gui/style/theme.h"
 #include "profiler/pictures/colors.h"
+#include "profiler/pictures/heat_map.h"
 
 namespace shadestep::gui {
 namespace {
@@ -94,6 +95,18 @@ void PictureView::findRange() {
     high = std::max(std::abs(low), std::abs(high));
     low = -high;
   }
+  // As the profiler's own maps: one interrupted measurement must not take all contrast from the rest.
+  if (picture_->scale == Picture::Scale::cost) {
+    std::vector<double> costs;
+    for (std::size_t p = 0; p < picture_->cells.size(); ++p)
+      if (picture_->cells[p] == Picture::Cell::reached)
+        costs.push_back(static_cast<double>(picture_->values[p]));
+    if (!costs.empty()) {
+      const profiler::ColorRange range = profiler::costRange(costs);
+      low = range.low;
+      high = range.high;
+    }
+  }
   if (low == high) high = low + 1;
   mapping_.low = low;
   mapping_.high = high;
@@ -154,7 +167,7 @@ void PictureView::paintEvent(QPaintEvent*) {
   painter.fillRect(rect(), theme().window);
   if (!picture_) {
     painter.setPen(theme().faint);
-    painter.drawText(rect(), Qt::AlignCenter, tr("Nothing to show here yet"));
+    painter.drawText(rect(), Qt::AlignCenter, nothing_);
     return;
   }
   const QRectF whole = frame();

@@ -24,6 +24,7 @@ class PictureView : public QWidget {
 
   void setPicture(const PicturePtr&);  // keeps zoom and position while the size stays
   const PicturePtr& picture() const { return picture_; }
+  void setNothing(const QString& why) { nothing_ = why; }  // what stands there without a picture
   void setMapping(const Mapping&);
   const Mapping& mapping() const { return mapping_; }
   void setPicked(std::optional<QPoint>);  // x, y as gl_FragCoord counts them
@@ -66,6 +67,7 @@ class PictureView : public QWidget {
   Mapping mapping_;
   QImage image_;
   double scale_ = 1;
+  QString nothing_;
   QPointF origin_;  // of the picture's upper left corner on the widget
   bool fitted_ = true;
   std::optional<QPoint> picked_;

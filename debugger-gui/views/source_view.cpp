@@ -12,7 +12,7 @@
 namespace shadestep::gui {
 namespace {
 
-enum Marker { kCurrentLine = 1, kConditionLine, kArrow, kBreakpoint, kBreakpointOff, kBreakpointIf };
+enum Marker { kCurrentLine = 1, kConditionLine, kBreakpoint, kBreakpointOff, kBreakpointIf, kArrow };
 enum Margin { kNumbers = 0, kSymbols, kCosts };
 constexpr int kDwellMs = 300;
 constexpr int kCostStyle = 60;

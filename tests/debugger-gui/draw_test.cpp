@@ -35,6 +35,19 @@ TEST(Draw, ProfilesAndCountsLoopsAsTheCommandLineDoes) {
   EXPECT_TRUE(window->picture().view().picture());
 }
 
+TEST(Draw, CancellingAProfileKeepsWhatWasMeasured) {
+  Window window;
+  window.start(smallRaycaster());
+  bool reported = false;
+  QObject::connect(&window.debugger().backend(), &gui::Backend::progress, &*window, [&] { reported = true; });
+  window.debugger().askProfile({"isolate", 3000, {}});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return reported; }, 30'000));
+  window.debugger().cancel();
+  window.settle();
+  ASSERT_TRUE(window.debugger().profile()) << window.lastMessage().toStdString();
+  EXPECT_GT(window.debugger().profile()->profile.measured, 0U);
+}
+
 TEST(Draw, GoesToDrawsAndListsThem) {
   Window window;
   window.start({binary("programs/several-draws")});
