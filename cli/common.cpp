@@ -21,6 +21,7 @@ session::LaunchOptions Common::launchOptions() const {
   session::LaunchOptions options;
   options.command = program;
   options.program_output_to_stderr = json;
+  options.ptrace = !no_ptrace;
   options.timeout = std::chrono::seconds(timeout);
   return options;
 }
@@ -45,7 +46,8 @@ void addCommonOptions(CLI::App& app, Common& common) {
   app.add_option("--timeout", common.timeout, "give up after S seconds")
       ->type_name("S")
       ->check(CLI::NonNegativeNumber);
-  app.add_flag("--no-ptrace", common.no_ptrace, "accepted; this version never uses ptrace");
+  app.add_flag("--no-ptrace", common.no_ptrace,
+               "do not watch the program by ptrace (it is told how it ended, not where it crashed)");
   app.add_flag("--quiet", common.quiet, "no progress, no remarks");
 }
 

@@ -87,16 +87,14 @@ Process Process::launch(const std::vector<std::string>& command,
 
 const std::optional<ExitStatus>& Process::wait(int timeout_ms) {
   if (status_) return status_;
-  if (timeout_ms > 0) {
-    pollfd entry{pidfd_.get(), POLLIN, 0};
-    poll(&entry, 1, timeout_ms);
-  }
-  int raw = 0;
-  pid_t ended;
+  // Asked only once it has ended: else this would take the stops of a traced process for itself.
+  pollfd entry{pidfd_.get(), POLLIN, 0};
+  int ready;
   do {
-    ended = waitpid(pid_, &raw, timeout_ms < 0 ? 0 : WNOHANG);
-  } while (ended < 0 && errno == EINTR);
-  if (ended == pid_) {
+    ready = poll(&entry, 1, timeout_ms);
+  } while (ready < 0 && errno == EINTR);
+  int raw = 0;
+  if (ready > 0 && waitpid(pid_, &raw, 0) == pid_) {
     status_ = WIFSIGNALED(raw) ? ExitStatus{true, WTERMSIG(raw)} : ExitStatus{false, WEXITSTATUS(raw)};
   }
   return status_;

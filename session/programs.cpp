@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -42,6 +43,13 @@ std::vector<std::pair<std::string, std::string>> preloadEnvironment(const Launch
   return environment;
 }
 
+pid_t processOf(const wire::Channel& channel) {
+  ucred credentials{};
+  socklen_t length = sizeof credentials;
+  const bool known = getsockopt(channel.descriptor(), SOL_SOCKET, SO_PEERCRED, &credentials, &length) == 0;
+  return known ? credentials.pid : -1;
+}
+
 void pause(const Peer& peer) {
   peer.status().pause.store(true);
   peer.status().watching.store(true);
@@ -67,7 +75,9 @@ Programs::Programs(const LaunchOptions& options, const std::string& interceptor)
       name_(options.command.front()),
       process_(Process::launch(options.command, preloadEnvironment(options, interceptor, listener_.name()),
                                options.program_output_to_stderr, options.working_directory)),
-      interrupts_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+      interrupts_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (options.ptrace) tracer_.emplace();
+}
 
 Programs::~Programs() {
   quit();
@@ -97,9 +107,10 @@ void Programs::greet() {
   }
   peer->memory = wire::SharedMemory::map(std::move(packet.bulk));
   if (!peer->memory || peer->memory.size() < sizeof(wire::AgentMemory)) return;
-  peer->pid = hello->pid();
+  peer->pid = processOf(peer->channel);  // the kernel's word, not the message's
   peer->program = hello->program() != nullptr ? hello->program()->str() : "";
   last_.connected = true;
+  if (tracer_) tracer_->trace(peer->pid, peer->status().last_call.load());
   if (pausing_) pause(*peer);
 
   wire::MessageT message;
@@ -138,6 +149,7 @@ void Programs::dropClosed() {
     if (peer->channel.open()) continue;
     noteLast(*peer);
     tellRest(*peer);
+    if (!peer->orderly) last_.died = peer->pid;
   }
   std::erase_if(peers_, [](const auto& peer) { return !peer->channel.open(); });
 }
@@ -269,6 +281,8 @@ std::string Programs::describeEnd() {
   std::string where = " in frame " + std::to_string(last_.frame) + " after " + std::to_string(last_.draws) +
                       (last_.draws == 1 ? " draw of it" : " draws of it");
   for (const std::string& call : last_.calls) where += ", in " + call;
+  const auto crash = tracer_ && last_.died != 0 ? tracer_->crash(last_.died) : std::nullopt;
+  if (crash) where += ": " + describe(*crash);
   return ended + where;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "session/process.h"
+#include "session/tracer.h"
 #include "wire/channel.h"
 #include "wire/messages_generated.h"
 #include "wire/status_page.h"
@@ -40,6 +41,7 @@ struct LastSeen {
   std::uint64_t draws = 0;   // in that frame
   std::uint64_t frames = 0;  // ended or, without presenting, drawn to
   std::uint64_t total_draws = 0;
+  pid_t died = 0;                  // the last process that ended without saying so
   std::vector<std::string> calls;  // in which its threads were, as far as calls were watched
 };
 
@@ -98,6 +100,7 @@ class Programs {
   wire::ResumeT policy_;
   CallSink call_sink_;
   wire::Descriptor interrupts_;  // an eventfd
+  std::optional<Tracer> tracer_;
   bool pausing_ = false;
   LastSeen last_;
 };

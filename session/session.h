@@ -40,6 +40,9 @@ struct LaunchOptions {
   bool program_output_to_stderr = false;  // keeps our own stdout clean for --json
   std::vector<std::pair<std::string, std::string>> environment;  // laid over our own
   std::string working_directory;                                 // of the program; empty: our own
+  // Watch the program by ptrace, so that a crash is told with its thread; where that is not permitted it goes
+  // without.
+  bool ptrace = true;
   std::chrono::seconds timeout{0};  // for the program to reach what is asked for; 0 = no limit
 };
 

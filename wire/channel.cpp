@@ -59,7 +59,10 @@ bool waitReadable(int fd, int timeout_ms) {
 
 bool verified(const std::vector<std::uint8_t>& bytes) {
   flatbuffers::Verifier verifier(bytes.data(), bytes.size(), 64, 4'000'000);
-  return VerifyMessageBuffer(verifier);
+  if (!VerifyMessageBuffer(verifier)) return false;
+  // A union may be valid and say nothing.
+  const Message* message = GetMessage(bytes.data());
+  return message->body_type() <= Body::MAX && message->body() != nullptr;
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ struct alignas(kPageBytes) StatusPage {
   // `pause` where it stops.
   std::atomic<bool> pause;
   std::atomic<bool> watching;  // whether calls are looked at; else a call costs a load and a branch
+  // Where each thread keeps its last call: bytes from its thread pointer to a pointer to something that begins
+  // with a pointer to the call's name. 0 = nowhere.
+  std::atomic<std::int64_t> last_call;
 };
 static_assert(sizeof(StatusPage) == kPageBytes, "the layout is part of the protocol: raise kProtocol");
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);

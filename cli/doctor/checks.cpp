@@ -232,7 +232,8 @@ Check checkPtrace() {
   const std::string detail =
       stopped ? "programs started by shadestep can be traced" : "the kernel refuses to trace child processes";
   return {"ptrace", stopped,
-          detail + " (yama ptrace_scope: " + scope + "); this version of shadestep does without", false};
+          detail + " (yama ptrace_scope: " + scope + "); where it cannot, a crash is told without its thread",
+          false};
 }
 
 std::vector<Check> checkProgramFile(const std::string& program) {

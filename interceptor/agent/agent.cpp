@@ -141,6 +141,8 @@ bool shareStatus(const wire::SharedMemory& memory) {
   shared->draw.store(status.draw.load());
   shared->draws.store(status.draws.load());
   shared->used_gl.store(status.used_gl.load());
+  shared->last_call.store(reinterpret_cast<const char*>(&calls::lastCall) -
+                          static_cast<const char*>(__builtin_thread_pointer()));
   return mmap(&status, wire::kPageBytes, PROT_READ | PROT_WRITE, MAP_FIXED | MAP_SHARED, memory.descriptor(),
               0) != MAP_FAILED;
 }

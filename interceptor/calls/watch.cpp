@@ -4,5 +4,6 @@ namespace shadestep::calls {
 
 constinit wire::StatusPage status{};
 constinit thread_local bool insideWatched = false;
+constinit thread_local const CallDescription* lastCall = nullptr;
 
 }  // namespace shadestep::calls

@@ -23,6 +23,9 @@ extern constinit wire::StatusPage status;
 // part of it.
 extern constinit thread_local bool insideWatched;
 
+// The last call of this thread that went through a wrapper, for whoever looks at a crash.
+extern constinit thread_local const CallDescription* lastCall;
+
 inline bool isWatching() {
   return status.watching.load(std::memory_order_relaxed);
 }

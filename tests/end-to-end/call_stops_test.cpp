@@ -246,6 +246,48 @@ TEST_F(CallStops, NothingOfTheLogIsLostWhenTheProgramDies) {
   }
 }
 
+// ---- how the program ends
+
+TEST_F(CallStops, ACrashIsToldWithItsThreadAndItsLastCall) {
+  const auto session = frames("3 crash 1");
+  const std::string end = session->runUntil({}).end;
+  for (const std::string part : {"was killed by signal 11 (Segmentation fault) in frame 1", " of it: thread ",
+                                 "(frames) got SIGSEGV at address 0x", "its last OpenGL call: glDrawArrays"})
+    EXPECT_NE(end.find(part), std::string::npos) << end;
+  EXPECT_EQ(session->runToEnd(), 128 + SIGSEGV);
+}
+
+TEST_F(CallStops, WithoutPtraceTheSignalIsTold) {
+  session::LaunchOptions launch;
+  launch.command = {binary("programs/crash"), "after"};
+  launch.ptrace = false;
+  const std::string end = Session(launch).runUntil({}).end;
+  EXPECT_NE(end.find("was killed by signal 11 (Segmentation fault) in frame 0 after 1 draw of it"),
+            std::string::npos)
+      << end;
+  EXPECT_EQ(end.find("in thread"), std::string::npos) << end;
+}
+
+// Its children share nothing with the debugger, and their ends are none of its.
+TEST_F(CallStops, ForkedChildrenAreLetGo) {
+  const auto session = frames("3 fork");
+  StopCondition frame;
+  frame.frame = 2;
+  EXPECT_EQ(session->runUntil(frame).reason, StopReason::frame);
+  EXPECT_EQ(session->runToEnd(), 0);
+  EXPECT_EQ(said(), (std::vector<std::string>{"0: 51 255 error 0x0", "1: 51 255 error 0x0",
+                                              "2: 51 255 error 0x500"}));
+}
+
+// The shell is another process, and stays: its status is that of the whole.
+TEST_F(CallStops, ProgramsOfACommandAreFollowed) {
+  session::LaunchOptions launch;
+  launch.command = {"sh", "-c", "'" + binary("programs/frames") + "' 2 >/dev/null; exit 9"};
+  Session session(launch);
+  EXPECT_EQ(session.runUntil(at("glClear")).reason, StopReason::call);
+  EXPECT_EQ(session.runToEnd(), 9);
+}
+
 // ---- the command break
 
 TEST(BreakCommand, ChangesEveryCallThatMatches) {

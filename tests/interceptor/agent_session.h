@@ -138,6 +138,12 @@ class Session {
     return reply != nullptr ? std::move(reply) : std::make_unique<wire::MessageT>();
   }
 
+  // Whatever these bytes are; null: the agent has hung up.
+  std::unique_ptr<wire::MessageT> askBytes(const std::vector<std::uint8_t>& bytes) {
+    channel_.send(bytes);
+    return receive();
+  }
+
   void resumeTo(std::uint64_t frame, std::uint64_t draw) {
     wire::ResumeT resume;
     resume.stop = true;

@@ -16,7 +16,7 @@ target_link_libraries(agent-target PRIVATE PkgConfig::OSMESA)
 add_executable(agent-memory agent_memory.cpp)
 target_link_libraries(agent-memory PRIVATE PkgConfig::OSMESA)
 
-foreach(test agent_test agent_situation_test agent_target_test agent_memory_test)
+foreach(test agent_test agent_situation_test agent_target_test agent_memory_test agent_fuzz_test)
   shadestep_test(${test} SOURCES ${test}.cpp LINKS shadestep-wire LABELS interceptor)
   target_compile_definitions(${test} PRIVATE
     PRELOAD_LIBRARY="$<TARGET_FILE:shadestep-gl>"
