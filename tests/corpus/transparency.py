@@ -78,7 +78,7 @@ def fair_order(names: list[str], seed: int) -> list[str]:
 def x_server():
     """The environment of a virtual X server of our own."""
     reading, writing = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24"], pass_fds=[writing],
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-noreset"], pass_fds=[writing],
                               stderr=subprocess.DEVNULL)
     os.close(writing)
     with os.fdopen(reading) as display:
