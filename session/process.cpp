@@ -72,7 +72,14 @@ Process Process::launch(const std::vector<std::string>& command,
     _exit(127);
   }
   process.pidfd_ = wire::Descriptor(static_cast<int>(syscall(SYS_pidfd_open, process.pid_, 0)));
-  if (process.pidfd_) fcntl(process.pidfd_.get(), F_SETFD, FD_CLOEXEC);
+  if (!process.pidfd_) {
+    const std::string reason = strerror(errno);
+    ::kill(process.pid_, SIGKILL);
+    waitpid(process.pid_, nullptr, 0);
+    throw Error(Outcome::failed,
+                "cannot watch the program, for which Linux 5.3 or newer is needed: " + reason);
+  }
+  fcntl(process.pidfd_.get(), F_SETFD, FD_CLOEXEC);
 
   writing.reset();
   int error = 0;
