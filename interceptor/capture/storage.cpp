@@ -45,7 +45,8 @@ guard::Refusal StorageBuffer::reset(const std::vector<std::uint32_t>& initial, s
   gl().GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
   if (size > static_cast<std::uint64_t>(most) / 4) {
     return guard::limit("a storage buffer of " + std::to_string(size) +
-                        " words is asked for; this driver allows " + std::to_string(most / 4));
+                        " words is asked for; this driver allows " + std::to_string(most / 4) +
+                        " (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)");
   }
   if (buffer_ == 0) gl().GenBuffers(1, &buffer_);
   gl().BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer_);
