@@ -320,10 +320,15 @@ void Debugger::askProfile(const CostRequest& request) {
       [this, request](Debuggee& debuggee) {
         return debuggee.profile(request, [this](double share) { backend_.report(share); });
       },
-      [this](const ProfilePtr& profile) {
+      [this, here = std::pair(stop_->draw.stop.frame, stop_->draw.stop.draw)](const ProfilePtr& profile) {
         profile_ = profile;
+        profiled_ = here;
         Q_EMIT profileChanged();
       });
+}
+
+bool Debugger::profileIsOfThisDraw() const {
+  return profile_ && stop_ && profiled_ == std::pair(stop_->draw.stop.frame, stop_->draw.stop.draw);
 }
 
 void Debugger::askGlState() {

@@ -64,7 +64,8 @@ class Debugger : public QObject {
   int runStep() const;                                      // the place's step in the run; -1: not on it
   const TargetPtr& target() const { return target_; }
   const LoopsPtr& loops() const { return loops_; }
-  const ProfilePtr& profile() const { return profile_; }
+  const ProfilePtr& profile() const { return profile_; }  // of this draw or an earlier one
+  bool profileIsOfThisDraw() const;
   const GlState& glState() const { return gl_state_; }
   const session::FragmentChoice& fragments() const { return fragments_; }
   const QMap<int, Breakpoint>& breakpoints() const { return breakpoints_; }  // by line
@@ -175,6 +176,7 @@ class Debugger : public QObject {
   TargetPtr target_;
   LoopsPtr loops_;
   ProfilePtr profile_;
+  std::pair<std::uint64_t, std::uint64_t> profiled_;  // frame and draw
   GlState gl_state_;
   session::FragmentChoice fragments_;
   QMap<int, Breakpoint> breakpoints_;

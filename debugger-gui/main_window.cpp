@@ -205,7 +205,7 @@ void MainWindow::refreshCosts() {
   SourceView* view = source();
   const ProfilePtr& profile = debugger_.profile();
   if (view == nullptr) return;
-  const bool fits = profile && profile->source == view->source().lines;
+  const bool fits = debugger_.profileIsOfThisDraw() && profile->source == view->source().lines;
   view->setCosts(fits ? profile->profile.lines : std::vector<profiler::LineCost>());
 }
 

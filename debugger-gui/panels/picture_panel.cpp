@@ -159,7 +159,9 @@ void PicturePanel::listSources() {
     for (int i = 0; i < static_cast<int>(debugger_.loops()->loops.size()); ++i)
       add({Kind::iterations, {}, i}, tr("Iterations of the loop at line %1")
                                          .arg(debugger_.loops()->loops[static_cast<std::size_t>(i)].line));
-  if (debugger_.profile()) add({Kind::cost, {}, 0}, tr("Cost"));
+  if (debugger_.profile())
+    add({Kind::cost, {}, 0},
+        debugger_.profileIsOfThisDraw() ? tr("Cost") : tr("Cost of the draw measured before"));
   if (debugger_.profile() && debugger_.profile()->comparison)
     add({Kind::difference, {}, 0}, tr("Cost against the earlier run"));
   const PictureSource& shown = debugger_.picture();

@@ -33,6 +33,7 @@ TEST(Draw, ProfilesAndCountsLoopsAsTheCommandLineDoes) {
   EXPECT_EQ(window.debugger().profile()->profile.total, profile["total"].get<double>());
   EXPECT_EQ(window.debugger().picture().kind, gui::PictureSource::Kind::cost);
   EXPECT_TRUE(window->picture().view().picture());
+  EXPECT_TRUE(window.debugger().profileIsOfThisDraw());
 }
 
 TEST(Draw, CancellingAProfileKeepsWhatWasMeasured) {

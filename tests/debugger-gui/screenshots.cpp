@@ -50,7 +50,7 @@ void takeAll(const QString& directory) {
   save(window, directory, "value");
 
   window->dock("run")->raise();
-  window->picture().view().setScale(128);
+  window->picture().view().setScale(140);
   save(window, directory, "pixels");
   window->picture().view().fit();
 
