@@ -127,12 +127,15 @@ session::Stage selectedStage(const Common& common) {
 
 void runToSelection(session::Session& session, const Common& common) {
   session.runTo(common.frame, common.draw);
-  const session::Stage stage = selectedStage(common);
-  session.shader(stage);  // exit 3 if there is none, 4 if it has no source or cannot be analysed
-  if (stage != session::Stage::fragment) {
-    throw Error(Outcome::cannot_debug, "this version of shadestep runs fragment shaders only; the " +
-                                           common.stage + " shader can be listed with 'shadestep source'");
-  }
+  session.select(selectedStage(common));
+  session.shader();  // exit 3 if there is none, 4 if it has no source or cannot be analysed
+}
+
+void requireFragmentStage(const Common& common, const char* command) {
+  if (selectedStage(common) == session::Stage::fragment) return;
+  throw Error(Outcome::cannot_debug, std::string("'") + command +
+                                         "' looks at fragment shaders only; 'shadestep debug --stage " +
+                                         common.stage + "' shows values and whole runs of this stage");
 }
 
 std::size_t pixelIndex(session::Session& session, const std::string& text) {

@@ -49,9 +49,11 @@ std::vector<int> parseIntegers(const std::string& text, const std::string& optio
                                std::size_t at_most);
 std::vector<std::string> splitList(const std::string& text);  // at commas, blanks trimmed; brackets respected
 
-// The selected stage; throws Error{cannot_debug} for stages that this version does not step through.
+// The selected stage; throws usage for a name that is none.
 session::Stage selectedStage(const Common&);
-// Launches, runs to the selected draw and checks that it can be debugged.
+// For commands that do no more than that; throws cannot_debug.
+void requireFragmentStage(const Common&, const char* command);
+// Runs to the selected draw and selects its stage, which must be there and can be analysed.
 void runToSelection(session::Session&, const Common&);
 
 // "X,Y" as an index into the target of the current draw, rows bottom up. Throws usage, nothing_matches.
@@ -62,7 +64,7 @@ Json toJson(const session::Check&);
 using session::describe;                  // of a check
 Json toJson(const instrumenter::Value&);  // exact: shortest digits; NaN and infinities as strings
 Json toJson(const session::LoggedCall&);
-Json number(double value);                // NaN and infinities as strings
+Json number(double value);  // NaN and infinities as strings
 using session::withThousands;
 
 // ---- the commands, a file each --------------------------------------------------------------------------

@@ -13,15 +13,33 @@ namespace shadestep::instrumenter {
 
 using frontend::Type;
 
+namespace {
+
+constexpr int kWidestListed = 1024;  // words of a thread in a list
+
+bool hasBitEncoding(const frontend::Shader& shader, const Target& target) {
+  return (isEs(shader) ? shader.version >= 300 : shader.version >= 330) || target.bit_encoding;
+}
+
+}  // namespace
+
 Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
   const frontend::Shader& shader = draft.shader();
+  storage_ = noStorage(shader, target).empty();
+  if (shader.stage == frontend::Stage::fragment) {
+    chooseAttachments(target);
+  } else {
+    chooseFeedbackOrList(target);
+  }
+  if (shader.main == frontend::kNone)
+    failure_ = "The shader has no main; it is a part of a program whose main is in another shader.";
+}
+
+void Attachments::chooseAttachments(const Target& target) {
+  const frontend::Shader& shader = draft_.shader();
   used_draw_buffers_ = target.used_draw_buffers;
   capacity_ = 4 * (target.max_draw_buffers - target.used_draw_buffers);
-  if (shader.stage != frontend::Stage::fragment) {
-    failure_ = "Only fragment shaders can be captured; choose --stage fragment.";
-  } else if (shader.main == frontend::kNone) {
-    failure_ = "The shader has no main; it is a part of a program whose main is in another shader.";
-  } else if (draft.es() && shader.version < 300 && !target.es_draw_buffers) {
+  if (draft_.es() && shader.version < 300 && !target.es_draw_buffers) {
     failure_ =
         "A GLSL ES 1.00 shader has a single colour output on this driver, which lacks GL_EXT_draw_buffers, "
         "so "
@@ -31,19 +49,42 @@ Attachments::Attachments(Draft& draft, const Target& target) : draft_(draft) {
                " draw buffers of this driver (GL_MAX_DRAW_BUFFERS), so none is left to capture values in.";
   }
 
-  if (draft.es() && shader.version < 300) draft.require("GL_EXT_draw_buffers");
+  if (draft_.es() && shader.version < 300) draft_.require("GL_EXT_draw_buffers");
 
   // gl_FragColor and gl_FragData exclude declared outputs, which below 1.30 only extensions bring.
   frag_data_ = writesFragData(shader) || (shader.version < 130 && shader.outputs.empty());
-  const bool bits = shader.version >= 130 && (draft.es() || shader.version >= 330 || target.bit_encoding);
+  const bool bits = shader.version >= 130 && hasBitEncoding(shader, target);
   layout_.carrier = !frag_data_ && bits ? Carrier::uint_attachments : Carrier::float_attachments;
   if (frag_data_) layout_.first_frag_data = target.used_draw_buffers;
-  storage_ = noStorage(shader, target).empty();
+}
+
+void Attachments::chooseFeedbackOrList(const Target& target) {
+  const frontend::Shader& shader = draft_.shader();
+  const bool bits = hasBitEncoding(shader, target);
+  if (shader.stage == frontend::Stage::vertex && target.feedback_components > 0) {
+    layout_.carrier = shader.version >= 130 && bits ? Carrier::uint_feedback : Carrier::float_feedback;
+    capacity_ = target.feedback_components / 4 * 4;
+  } else if (storage_ && bits) {
+    layout_.carrier = Carrier::list;
+    capacity_ = kWidestListed;
+  } else {
+    failure_ = "Values of this stage need " +
+               (storage_ ? std::string("GL_ARB_shader_bit_encoding, which this driver lacks")
+                         : noStorage(shader, target)) +
+               ".";
+  }
+  for (const Identity& one : identityOf(shader, target)) {
+    Type number;
+    number.basic = frontend::Basic::int_;
+    if (!one.extension.empty()) draft_.require(one.extension);
+    if (add(one.name, number)) identity_.push_back(one.expression);
+  }
+  layout_.identity.swap(layout_.fields);
+  first_word_ = layout_.words;
 }
 
 bool Attachments::add(const std::string& name, const Type& type) {
-  const bool floats = layout_.carrier == Carrier::float_attachments;
-  const int words = floats ? channelCount(type) : frontend::wordCount(type);
+  const int words = floats() ? channelCount(type) : frontend::wordCount(type);
   if (words == 0 || layout_.words + words > capacity_) return false;
   layout_.fields.push_back(Field{name, type, layout_.words});
   layout_.words += words;
@@ -54,82 +95,103 @@ AttachmentLayout Attachments::overlay() {
   AttachmentLayout one = layout_;
   widest_ = std::max(widest_, layout_.words);
   layout_.fields.clear();
-  layout_.words = 1;
+  layout_.words = first_word_;
   return one;
 }
 
 void Attachments::declare() {
   layout_.words = std::max(layout_.words, widest_);
-  const bool floats = layout_.carrier == Carrier::float_attachments;
-  const std::string type = draft_.highp() + (floats ? "vec4 " : "uvec4 ");
-  if (!floats) prepareWords(draft_);
-  if (floats && draft_.shader().version < 130) draft_.declare(draft_.adapt(helpers::k_attachment_halves));
+  const std::string type = draft_.highp() + (floats() ? "vec4 " : "uvec4 ");
+  if (!floats()) prepareWords(draft_);
+  if (floats() && draft_.shader().version < 130) draft_.declare(draft_.adapt(helpers::k_attachment_halves));
 
   for (int i = 0; i < layout_.attachments(); ++i) {
     draft_.declare(type + buffer(i) + ";");
-    if (frag_data_) continue;
+    if (frag_data_ || layout_.carrier == Carrier::list) continue;
     layout_.outputs.push_back(draft_.name("capture" + std::to_string(i)));
-    // In ES a location can be given in the text only; below 1.30 the extension that brings outputs asks for
-    // it.
-    const bool located = draft_.es() || draft_.shader().version < 130;
-    const std::string location =
-        located ? "layout(location = " + std::to_string(used_draw_buffers_ + i) + ") " : "";
-    draft_.declare(location + "out " + type + layout_.outputs.back() + ";");
+    draft_.declare(outputQualifiers(i) + type + layout_.outputs.back() + ";");
+  }
+  if (layout_.carrier == Carrier::list) {
+    layout_.list_block = draft_.name("List");
+    declareList(layout_.list_block, layout_.attachments());
   }
   if (frag_data_) replaceFragColor(draft_);
-  if (draft_.es()) locateOnlyOutput(draft_);
+  if (draft_.es() && draft_.shader().stage == frontend::Stage::fragment) locateOnlyOutput(draft_);
+}
+
+std::string Attachments::outputQualifiers(int index) const {
+  const int version = draft_.shader().version;
+  if (layout_.carrier == Carrier::uint_feedback) return "flat out ";
+  if (layout_.carrier == Carrier::float_feedback) return version < 130 ? "varying " : "out ";
+  // In ES a location can be given in the text only; below 1.30 the extension that brings outputs asks for it.
+  const bool located = draft_.es() || version < 130;
+  return located ? "layout(location = " + std::to_string(used_draw_buffers_ + index) + ") out " : "out ";
 }
 
 std::string Attachments::assign(const std::vector<Field>& fields, std::uint32_t mark,
                                 const std::vector<std::string>& values) const {
-  std::vector<std::string> words = {markWord(mark)};
+  std::vector<std::string> words = markAndIdentity(mark);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Type& type = fields[i].type;
-    const std::vector<std::string> more = layout_.carrier == Carrier::float_attachments
-                                              ? floatChannels(draft_, values[i], type)
-                                              : uintWords(draft_, values[i], type);
+    const std::vector<std::string> more = valueWords(values[i], fields[i].type);
     words.insert(words.end(), more.begin(), more.end());
   }
   return assignWords(words, (static_cast<int>(words.size()) + 3) / 4);
 }
 
 std::string Attachments::clear(std::uint32_t mark, const std::string& nothing) const {
-  return assignWords({markWord(mark)}, layout_.attachments(), nothing);
+  return assignWords(markAndIdentity(mark), layout_.attachments(), nothing);
+}
+
+std::vector<std::string> Attachments::markAndIdentity(std::uint32_t mark) const {
+  std::vector<std::string> words = {markWord(mark)};
+  for (std::size_t i = 0; i < identity_.size(); ++i) {
+    const std::vector<std::string> more = valueWords(identity_[i], layout_.identity[i].type);
+    words.insert(words.end(), more.begin(), more.end());
+  }
+  return words;
+}
+
+std::vector<std::string> Attachments::valueWords(const std::string& value, const Type& type) const {
+  return floats() ? floatChannels(draft_, value, type) : uintWords(draft_, value, type);
 }
 
 void Attachments::frame(const std::string& start, const std::string& end) {
   wrapMain(draft_, start, end + write());
   if (!storage_ || !draft_.shader().traits.uses_discard) return;
-  declareDiscarded();
-  wrapDiscards(draft_, end + appendDiscarded());
-}
-
-void Attachments::declareDiscarded() {
-  requireStorage(draft_);
   layout_.discarded_block = draft_.name("Discarded");
   layout_.discarded_words = 4 * (1 + layout_.attachments());
-  const bool floats = layout_.carrier == Carrier::float_attachments;
-  draft_.declare(inStorage(draft_, "layout(std430) buffer " + layout_.discarded_block + " { " +
-                                       draft_.highp() + "int " + draft_.name("ended") + ", " +
-                                       draft_.name("listed") + "; " + draft_.highp() +
-                                       (floats ? "vec4 " : "uvec4 ") + draft_.name("discarded") + "[]; };"));
+  declareList(layout_.discarded_block, 1 + layout_.attachments());
+  wrapDiscards(
+      draft_,
+      end + appendToList(floats() ? "vec4(floor(gl_FragCoord.xy), gl_FragCoord.z, 1.0)"
+                                  : "uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u)"));
 }
 
-std::string Attachments::appendDiscarded() const {
-  const bool floats = layout_.carrier == Carrier::float_attachments;
+// A list of threads, to which appendToList appends.
+void Attachments::declareList(const std::string& block, int vectors) {
+  requireStorage(draft_);
+  list_vectors_ = vectors;
+  draft_.declare(inStorage(draft_, "layout(std430) buffer " + block + " { " + draft_.highp() + "int " +
+                                       draft_.name("ended") + ", " + draft_.name("listed") + "; " +
+                                       draft_.highp() + (floats() ? "vec4 " : "uvec4 ") +
+                                       draft_.name("list") + "[]; };"));
+}
+
+// `before`: a vector that comes before the buffered words, "" = none.
+std::string Attachments::appendToList(const std::string& before) const {
   const std::string order = draft_.name("order"), ended = draft_.name("ended");
-  const std::string list =
-      draft_.name("discarded[") + order + " * " + std::to_string(1 + layout_.attachments()) + " + ";
+  const std::string list = draft_.name("list[") + order + " * " + std::to_string(list_vectors_) + " + ";
   std::string text = "  " + draft_.highp() + "int " + order + " = atomicAdd(" + ended + ", 1);\n  if (" +
-                     order + " < " + draft_.name("listed") + ") {\n    " + list + "0] = ";
-  text += floats ? "vec4(floor(gl_FragCoord.xy), gl_FragCoord.z, 1.0);\n"
-                 : "uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u);\n";
+                     order + " < " + draft_.name("listed") + ") {\n";
+  int at = 0;
+  if (!before.empty()) text += "    " + list + std::to_string(at++) + "] = " + before + ";\n";
   for (int i = 0; i < layout_.attachments(); ++i)
-    text += "    " + list + std::to_string(i + 1) + "] = " + buffer(i) + ";\n";
+    text += "    " + list + std::to_string(at++) + "] = " + buffer(i) + ";\n";
   return text + "  }\n";
 }
 
 std::string Attachments::write() const {
+  if (layout_.carrier == Carrier::list) return appendToList("");
   std::string text;
   for (int i = 0; i < layout_.attachments(); ++i) {
     const std::string output = frag_data_ ? "gl_FragData[" + std::to_string(layout_.first_frag_data + i) + "]"
@@ -147,12 +209,11 @@ std::string Attachments::unrounded(const std::string& words) const {
 
 std::string Attachments::assignWords(const std::vector<std::string>& words, int attachments,
                                      const std::string& nothing) const {
-  const bool floats = layout_.carrier == Carrier::float_attachments;
-  const std::string zero = floats ? "0.0" : "0u";
+  const std::string zero = floats() ? "0.0" : "0u";
   std::string text;
   for (int i = 0; i < attachments; ++i) {
     if (i > 0) text += ", ";
-    text += buffer(i) + (floats ? " = vec4(" : " = uvec4(");
+    text += buffer(i) + (floats() ? " = vec4(" : " = uvec4(");
     for (std::size_t channel = 0; channel < 4; ++channel) {
       const std::size_t word = static_cast<std::size_t>(i) * 4 + channel;
       if (channel > 0) text += ", ";
@@ -164,7 +225,7 @@ std::string Attachments::assignWords(const std::vector<std::string>& words, int 
 }
 
 std::string Attachments::markWord(std::uint32_t mark) const {
-  return std::to_string(mark) + (layout_.carrier == Carrier::float_attachments ? ".0" : "u");
+  return std::to_string(mark) + (floats() ? ".0" : "u");
 }
 
 }  // namespace shadestep::instrumenter

@@ -1,12 +1,13 @@
-// Captured words on their way out through colour attachments: buffered in globals while the shader runs,
-// written by the new main at its end (thesis 7.1.4: outputs may be read by the shader, so they are written
-// last).
+// Captured words on their way out: buffered in globals while the shader runs, written by the new main at its
+// end (thesis 7.1.4: outputs may be read by the shader, so they are written last). Of fragments they leave
+// through colour attachments, of a vertex shader through outputs for transform feedback, of all other stages
+// through a storage block.
 //
 //   uvec4 sd_words0;  out uvec4 sd_capture0;          (or vec4 and gl_FragData[first_frag_data])
 //   ... sd_words0 = uvec4(3u, floatBitsToUint(a.x), floatBitsToUint(a.y), 0u) ...
 //   sd_capture0 = sd_words0;
 //
-// Threads that end in a discard leave nothing there: they append their words to a list in a storage block,
+// Fragments that end in a discard leave nothing there: they append their words to a list in a storage block,
 // where the driver has those (AttachmentLayout::discarded_block).
 #pragma once
 
@@ -50,21 +51,32 @@ class Attachments {
   const AttachmentLayout& layout() const { return layout_; }
 
  private:
+  void chooseAttachments(const Target&);
+  void chooseFeedbackOrList(const Target&);
+  bool floats() const {
+    return layout_.carrier == Carrier::float_attachments || layout_.carrier == Carrier::float_feedback;
+  }
+  std::vector<std::string> markAndIdentity(std::uint32_t mark) const;
+  std::vector<std::string> valueWords(const std::string& value, const frontend::Type&) const;
   std::string assignWords(const std::vector<std::string>& words, int attachments,
                           const std::string& nothing = "") const;
   std::string unrounded(const std::string& words) const;
   std::string markWord(std::uint32_t mark) const;
-  void declareDiscarded();
-  std::string appendDiscarded() const;
+  std::string outputQualifiers(int index) const;
+  void declareList(const std::string& block, int vectors);
+  std::string appendToList(const std::string& before) const;
   std::string buffer(int index) const { return draft_.name("words" + std::to_string(index)); }
 
   Draft& draft_;
   std::string failure_;
   AttachmentLayout layout_;
   bool frag_data_ = false;
-  bool storage_ = false;  // can a storage block be declared?
-  int capacity_ = 0;      // words
-  int widest_ = 1;        // of the overlays so far
+  bool storage_ = false;               // can a storage block be declared?
+  int capacity_ = 0;                   // words
+  std::vector<std::string> identity_;  // GLSL expressions
+  int widest_ = 1;                     // of the overlays so far
+  int first_word_ = 1;                 // behind the mark and the identity
+  int list_vectors_ = 0;               // of a thread in the list
   int used_draw_buffers_ = 1;
 };
 

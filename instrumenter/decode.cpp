@@ -14,6 +14,10 @@ using frontend::Type;
 
 namespace {
 
+bool isFloat(Carrier carrier) {
+  return carrier == Carrier::float_attachments || carrier == Carrier::float_feedback;
+}
+
 // A channel that holds a small whole number as a float. What is none decodes to 0.
 std::uint32_t wholeNumber(std::uint32_t float_bits) {
   const float value = std::bit_cast<float>(float_bits);
@@ -103,7 +107,7 @@ Value decode(const AttachmentLayout& layout, const Field& field, const std::uint
 void decodeInto(const AttachmentLayout& layout, const Field& field, const std::vector<Component>& components,
                 const std::uint32_t* words, std::uint32_t* out) {
   const std::uint32_t* channel = words + field.first_word;
-  if (layout.carrier != Carrier::float_attachments) {
+  if (!isFloat(layout.carrier)) {
     std::copy_n(channel, wordCount(field.type), out);
     return;
   }
@@ -118,12 +122,11 @@ void decodeInto(const AttachmentLayout& layout, const Field& field, const std::v
 }
 
 std::uint32_t decodeMark(const AttachmentLayout& layout, const std::uint32_t* words) {
-  return layout.carrier == Carrier::float_attachments ? wholeNumber(words[0]) : words[0];
+  return isFloat(layout.carrier) ? wholeNumber(words[0]) : words[0];
 }
 
 std::uint32_t encodeMark(const AttachmentLayout& layout, std::uint32_t mark) {
-  return layout.carrier == Carrier::float_attachments ? std::bit_cast<std::uint32_t>(static_cast<float>(mark))
-                                                      : mark;
+  return isFloat(layout.carrier) ? std::bit_cast<std::uint32_t>(static_cast<float>(mark)) : mark;
 }
 
 DiscardedThreads decodeDiscarded(const AttachmentLayout& layout, const std::vector<std::uint32_t>& block) {
@@ -133,7 +136,7 @@ DiscardedThreads decodeDiscarded(const AttachmentLayout& layout, const std::vect
   result.ended = block[0];
   const std::size_t count =
       std::min<std::size_t>(std::min(block[0], block[1]), (block.size() - kDiscardedHeader) / words);
-  const bool floats = layout.carrier == Carrier::float_attachments;
+  const bool floats = isFloat(layout.carrier);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t* at = block.data() + kDiscardedHeader + i * words;
     DiscardedThread thread;

@@ -1,9 +1,9 @@
-// Probes on an analysed shader -> the text of an instrumented shader, and the layout of the words it captures.
-// Plain functions from text to text: no OpenGL here. Method: Strengert 2010, 7.1.4.
+// Probes on an analysed shader -> the text of an instrumented shader, and the layout of the words it
+// captures. Plain functions from text to text: no OpenGL here. Method: Strengert 2010, 7.1.4.
 //
 // In every instrumented text the user's own tokens stand unchanged and in order, with insertions; the only
-// replacements are the name of `main` (wrapped, so that captured words are written at every end of the thread),
-// the names of functions cloned along a call path, `discard` (constructs/discard.h) and gl_FragColor
+// replacements are the name of `main` (wrapped, so that captured words are written at every end of the
+// thread), the names of functions cloned along a call path, `discard` (constructs/discard.h) and gl_FragColor
 // (constructs/fragment_outputs.h).
 #pragma once
 
@@ -20,27 +20,34 @@ namespace shadestep::instrumenter {
 // How captured words leave the shader.
 enum class Carrier {
   uint_attachments,   // uvec4 outputs, bit for bit (GLSL >= 1.30 / ES 3.00)
-  float_attachments,  // vec4 outputs via gl_FragData (GLSL < 1.30): floats as they are, integers as 16-bit halves
-  storage,            // words appended to a storage buffer
+  float_attachments,  // vec4 outputs via gl_FragData (GLSL < 1.30): floats as they are, integers as 16-bit
+                      // halves
+  uint_feedback,      // uvec4 outputs of a stage before rasterization, bit for bit, for transform feedback
+  float_feedback,     // vec4 outputs (GLSL < 1.30), as with float_attachments
+  list,               // appended to a storage block, thread by thread, bit for bit
 };
 
 // What the driver offers; the session fills it in from the agent's answer.
 struct Target {
-  bool storage_buffers = false;   // GL_ARB_shader_storage_buffer_object usable in this stage
-  bool bit_encoding = false;      // floatBitsToInt available or enabled by GL_ARB_shader_bit_encoding
-  bool shader_clock = false;      // GL_ARB_shader_clock
-  bool es_draw_buffers = false;   // GL_EXT_draw_buffers: several outputs in GLSL ES 1.00
+  bool storage_buffers = false;  // GL_ARB_shader_storage_buffer_object usable in this stage
+  bool bit_encoding = false;     // floatBitsToInt available or enabled by GL_ARB_shader_bit_encoding
+  bool shader_clock = false;     // GL_ARB_shader_clock
+  bool es_draw_buffers = false;  // GL_EXT_draw_buffers: several outputs in GLSL ES 1.00
   int max_draw_buffers = 8;
-  int used_draw_buffers = 1;      // colour outputs that the program's own framebuffer uses
+  int used_draw_buffers = 1;    // colour outputs that the program's own framebuffer uses
+  int feedback_components = 0;  // that transform feedback has room for beside the original outputs
+  bool gpu_shader4 = false;     // GL_EXT_gpu_shader4: gl_VertexID and gl_InstanceID below GLSL 1.30
+  bool draw_instanced = false;  // GL_ARB_draw_instanced: gl_InstanceIDARB
 };
 
 // One captured scalar component in a block of words.
-// uint_attachments and storage: `words` = 1 (2 for 64-bit types, low word first).
-// float_attachments: float takes 1 channel; int, uint, bool take 2 (low 16 bits, high 16 bits, each as a float).
+// uint_attachments, uint_feedback and list: `words` = 1 (2 for 64-bit types, low word first).
+// float_attachments and float_feedback: float takes 1 channel; int, uint, bool take 2 (low 16 bits, high 16
+// bits, each as a float).
 struct Field {
-  std::string name;      // the watched expression or variable
+  std::string name;  // the watched expression or variable
   frontend::Type type;
-  int first_word = 0;    // index into the thread's or record's words
+  int first_word = 0;  // index into the thread's or record's words
 };
 
 // Words per thread, in attachments of 4 channels each. Word 0 is the *mark*: 0 = no fragment of the draw is
@@ -50,40 +57,47 @@ inline constexpr std::uint32_t kLaunched = 1;
 inline constexpr std::uint32_t kReached = 2;
 inline constexpr std::uint32_t kDiscarded = 4;
 
-// A thread that ends in a discard leaves nothing in attachments. Where the driver has storage buffers it appends its
-// words to a list in a block instead:
-//   [0] number of such threads (atomic), 0 before the draw   [1] number of those that there is room for   [2],[3]
-//   reserved; all four are ints
-//   then per thread, in order of their ends, `discarded_words` words of the carrier: gl_FragCoord.x, .y (floor; in the
-//   shader's own convention), .z, 1, and what it would have left in its attachments
+// A thread that ends in a discard leaves nothing in attachments. Where the driver has storage buffers it
+// appends its words to a list in a block instead:
+//   [0] number of such threads (atomic), 0 before the draw   [1] number of those that there is room for
+//   [2],[3] reserved; all four are ints then per thread, in order of their ends, `discarded_words` words of
+//   the carrier: gl_FragCoord.x, .y (floor; in the shader's own convention), .z, 1, and what it would have
+//   left in its attachments
+//
+// Threads of other stages than the fragment stage have no place in a picture: their words come with what
+// tells who they are (identityOf), `identity` values before those asked for. With Carrier::list the block is
+//   [0] number of threads (atomic), 0 before the draw   [1] number of those that there is room for   [2],[3]
+//   reserved then per thread, in order of their ends, `words` rounded up to a multiple of four
 struct AttachmentLayout {
   Carrier carrier = Carrier::uint_attachments;
-  int words = 1;                        // including the mark
+  int words = 1;                // including the mark
+  std::vector<Field> identity;  // who the thread is; empty for fragments, and where the dialect does not tell
   std::vector<Field> fields;
-  std::vector<std::string> outputs;     // names of the capture outputs, in order; empty with gl_FragData, where
-                                        // capture outputs are gl_FragData[first_frag_data ...]
+  std::vector<std::string> outputs;  // names of the capture outputs, in order; empty with gl_FragData, where
+                                     // capture outputs are gl_FragData[first_frag_data ...]
   int first_frag_data = 0;
-  std::string discarded_block;          // name of the storage block; empty: discarded threads are not captured
-  int discarded_words = 0;              // per thread in the list
+  std::string discarded_block;  // name of the storage block; empty: discarded threads are not captured
+  int discarded_words = 0;      // per thread in the list
+  std::string list_block;       // Carrier::list: name of the storage block
   int attachments() const { return (words + 3) / 4; }
 };
 
 // What one record in a recording says.
 enum class Event {
-  function_enter,   // values: parameters that come in
-  function_leave,   // fell off the end; values: out parameters
-  before,           // about to run a statement that calls user functions, or any loop
-  statement,        // ran it; values: what it may have changed (in scope), declared variables. Of large arrays, of
-                    // memory that all threads see and of images, the part written, named as the user wrote it
-  condition,        // evaluated it; first value is the outcome "" (bool; int/uint for switch; true for a missing
-                    // one), then what changed. for: with what init (its variables too) or increment changed
-  iteration,        // at the start of a loop's body
-  return_,          // about to return; first value is the returned one, named "return", if any
-  jump,             // about to break, continue or discard
-  call,             // about to evaluate the arguments of `call` and then to enter its function; where the order of
-                    // records does not tell which call it is. Calls nest: the last one not yet entered is entered
-  choice,           // evaluated the operand that decides at the operator `token` (?:, && or ||): its value, named ""
-  declarator,       // the declarator at `token` and those before it have run, the next is about to: what changed
+  function_enter,  // values: parameters that come in
+  function_leave,  // fell off the end; values: out parameters
+  before,          // about to run a statement that calls user functions, or any loop
+  statement,  // ran it; values: what it may have changed (in scope), declared variables. Of large arrays, of
+              // memory that all threads see and of images, the part written, named as the user wrote it
+  condition,  // evaluated it; first value is the outcome "" (bool; int/uint for switch; true for a missing
+              // one), then what changed. for: with what init (its variables too) or increment changed
+  iteration,  // at the start of a loop's body
+  return_,    // about to return; first value is the returned one, named "return", if any
+  jump,       // about to break, continue or discard
+  call,       // about to evaluate the arguments of `call` and then to enter its function; where the order of
+              // records does not tell which call it is. Calls nest: the last one not yet entered is entered
+  choice,  // evaluated the operand that decides at the operator `token` (?:, && or ||): its value, named ""
+  declarator,  // the declarator at `token` and those before it have run, the next is about to: what changed
 };
 struct RecordLayout {
   Event event = Event::statement;
@@ -91,9 +105,9 @@ struct RecordLayout {
   frontend::FunctionId function = frontend::kNone;
   frontend::CallId call = frontend::kNone;
   frontend::TokenIndex token = frontend::kNone;  // call: the function's name
-  std::vector<Field> fields;   // first_word counts from after the record's id
-  int words = 0;               // without the id
-  std::vector<std::string> left_out;  // what changed, too, but is wider than kWidestRecorded
+  std::vector<Field> fields;                     // first_word counts from after the record's id
+  int words = 0;                                 // without the id
+  std::vector<std::string> left_out;             // what changed, too, but is wider than kWidestRecorded
 };
 
 // Recording: the storage block is an array of 32-bit ints:
@@ -102,24 +116,28 @@ struct RecordLayout {
 //   [2] number of threads that there is room for, written by the session
 //   [3] reserved
 //   then per thread (in order of start) `words available` ints:
-//     [0] words that the thread wanted, these four included (may exceed what fits: then run again with more room)
-//     [1],[2] gl_FragCoord.x, .y as integers (floor; in the shader's own convention, should it say
-//     origin_upper_left)   [3] mark of this invocation: 1 = ran to its end, 2 = ended in a discard, 0 = neither seen
-//     [4...] records: id (1-based index into `records`), then its words
+//     [0] words that the thread wanted, these four included (may exceed what fits: then run again with more
+//     room) [1],[2] gl_FragCoord.x, .y as integers (floor; in the shader's own convention, should it say
+//     origin_upper_left)   [3] mark of this invocation: 1 = ran to its end, 2 = ended in a discard, 0 =
+//     neither seen [4...] records: id (1-based index into `records`), then its words
 // The same invocation number (its order of start + 1) is written to attachment output 0, so that the visible
 // fragment among several on one pixel is known.
 inline constexpr int kRecordingHeader = 4;
 inline constexpr int kThreadHeader = 4;
 // Values of more words than this (large arrays) are left out of records, which name them.
 inline constexpr int kWidestRecorded = 64;
+// Other stages: [1],[2] are the first two numbers of the thread's identity, and there is no attachment.
 struct RecordingLayout {
-  std::string block;                    // name of the storage block
-  std::string pixel_uniform;            // ivec4: x, y (lower left) and width, height of the recorded pixels
-  std::vector<RecordLayout> records;    // record id - 1 -> layout
-  AttachmentLayout attachment;          // the mark, then the invocation number (field "invocation", uint)
+  std::string block;          // name of the storage block
+  std::string pixel_uniform;  // ivec4: x, y (lower left) and width, height of the recorded pixels; of other
+                              // stages the numbers of identityOf, of the one recorded thread
+  std::vector<RecordLayout> records;  // record id - 1 -> layout
+  AttachmentLayout attachment;        // the mark, then the invocation number (field "invocation", uint)
 };
 
-struct Failure { std::string reason; };  // one sentence for the user
+struct Failure {
+  std::string reason;
+};  // one sentence for the user
 
 struct AttachmentShader {
   std::string text;
@@ -129,49 +147,69 @@ struct RecordingShader {
   std::string text;
   RecordingLayout layout;
 };
-template <class T> using Result = std::variant<T, Failure>;
+template <class T>
+using Result = std::variant<T, Failure>;
 
-// ---- single: one probe, all threads ------------------------------------------------------------------------
+// What tells the threads of a stage apart: a whole number each ("vertex", "instance"), and how the shader
+// calls it. Empty for fragments, and where the dialect has no such names.
+struct Identity {
+  std::string name;
+  std::string expression;  // of type int
+  std::string extension;   // that it needs; "" = none
+};
+std::vector<Identity> identityOf(const frontend::Shader&, const Target&);
+
+// The original outputs of a stage before rasterization, as transform feedback names them.
+struct FeedbackOutput {
+  std::string name;  // "gl_Position", "Block.member", "light[2].colour"
+  frontend::Type type;
+};
+std::vector<FeedbackOutput> feedbackOutputs(const frontend::Shader&);
+
+// ---- single: one probe, all threads
+// ------------------------------------------------------------------------
 
 // A place in the run of a thread at which values are looked at.
 struct Probe {
   enum class When { before, after } when = When::before;
-      // after: after the statement ran (expression, declaration), or after a condition was evaluated,
-      // for all threads that evaluate it (thesis: buffered condition); after the init of a `for`: before the
-      // first evaluation of its condition
+  // after: after the statement ran (expression, declaration), or after a condition was evaluated,
+  // for all threads that evaluate it (thesis: buffered condition); after the init of a `for`: before the
+  // first evaluation of its condition
   frontend::StatementId statement = frontend::kNone;  // `before` the body block of a function = at its start
   std::vector<frontend::CallId> call_path;  // from main inwards; empty = any call (no function is cloned)
   std::vector<int> iterations;              // 0-based, per enclosing loop of the whole call path, outermost
-                                            // first; may be shorter; loops without a number: the last time wins.
-                                            // A loop's body i and the evaluation i of its condition have number i
-                                            // (`after` on a loop: its own number comes last). With an empty call
-                                            // path: the loops of the statement's function
+                                // first; may be shorter; loops without a number: the last time wins.
+                                // A loop's body i and the evaluation i of its condition have number i
+                                // (`after` on a loop: its own number comes last). With an empty call
+                                // path: the loops of the statement's function
   std::vector<frontend::Watch> watches;
-  bool outcome = false;                     // with When::after on a condition: also capture its outcome ("")
-  // With When::after: not after the whole statement, but inside of its own expressions. At an operator ?:, && or ||
-  // (choicesOf): right after the operand that decides, whose value is the outcome. At the closing parenthesis of a
-  // call of a user function: right after it returned.
+  bool outcome = false;  // with When::after on a condition: also capture its outcome ("")
+  // With When::after: not after the whole statement, but inside of its own expressions. At an operator ?:, &&
+  // or || (choicesOf): right after the operand that decides, whose value is the outcome. At the closing
+  // parenthesis of a call of a user function: right after it returned.
   frontend::TokenIndex inside = frontend::kNone;
 };
 
-// The operators ?:, && and || in a statement's own expressions, a loop's increment included; outer ones before those
-// inside of them. Those that literals decide are left out.
+// The operators ?:, && and || in a statement's own expressions, a loop's increment included; outer ones
+// before those inside of them. Those that literals decide are left out.
 std::vector<frontend::TokenIndex> choicesOf(const frontend::Shader&, frontend::StatementId);
 
-// The loops whose iterations `Probe::iterations` numbers, for a probe at this place: those around each call of the
-// path (also one that calls from its own condition or increment), then those around the statement.
+// The loops whose iterations `Probe::iterations` numbers, for a probe at this place: those around each call
+// of the path (also one that calls from its own condition or increment), then those around the statement.
 std::vector<frontend::StatementId> numberedLoops(const frontend::Shader&, const Probe&);
 
 // One probe whose words leave through attachments. `first` .. as many watches as fit are taken when
 // there are more than the draw buffers hold: `layout.fields` says which; ask again with the rest.
 Result<AttachmentShader> instrumentSingle(const frontend::Shader&, const Probe&, const Target&);
 
-// ---- window: several probes, one text ----------------------------------------------------------------------
+// ---- window: several probes, one text
+// ----------------------------------------------------------------------
 
-// The probes of one text are chosen by a uniform, and the iterations that each means are uniforms too: another
-// step, or another iteration, costs a draw and no compilation. The words of all probes lie over each other.
+// The probes of one text are chosen by a uniform, and the iterations that each means are uniforms too:
+// another step, or another iteration, costs a draw and no compilation. The words of all probes lie over each
+// other.
 struct WindowLayout {
-  AttachmentLayout capture;              // of the text: carrier, outputs, words of the widest probe; no fields
+  AttachmentLayout capture;  // of the text: carrier, outputs, words of the widest probe; no fields
   std::vector<AttachmentLayout> probes;  // as `capture`, with the words and the fields of each probe
   std::string probe_uniform;             // int: index of the probe; one that is not there captures nothing
   // int each: Probe::iterations[i] of the chosen probe. Those beyond its own count for nothing.
@@ -182,23 +220,25 @@ struct WindowShader {
   WindowLayout layout;
 };
 
-// How many iterations each probe has says how many of its loops are numbered; their values do not matter here.
-// Fails if the words of one probe do not fit: make its watches fewer. Fails also if a probe that takes any call
-// of a function meets one that tells the calls of this function apart: one text cannot hold both.
+// How many iterations each probe has says how many of its loops are numbered; their values do not matter
+// here. Fails if the words of one probe do not fit: make its watches fewer. Fails also if a probe that takes
+// any call of a function meets one that tells the calls of this function apart: one text cannot hold both.
 Result<WindowShader> instrumentWindow(const frontend::Shader&, const std::vector<Probe>&, const Target&);
 
-// ---- recording: every step of chosen threads ---------------------------------------------------------------
+// ---- recording: every step of chosen threads
+// ---------------------------------------------------------------
 
 Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Target&);
 
-// The user's shader with every colour output set to `fill` before main. Where what it draws depends on `fill`, it
-// leaves an output undefined. Nothing else is changed and nothing captured.
+// The user's shader with every colour output set to `fill` before main. Where what it draws depends on
+// `fill`, it leaves an output undefined. Nothing else is changed and nothing captured.
 Result<std::string> instrumentFilledOutputs(const frontend::Shader&, const Target&, float fill);
 
 // The user's tokens, emitted with nothing inserted: the round trip.
 std::string uninstrumented(const frontend::Shader&);
 
-// ---- decoding ----------------------------------------------------------------------------------------------
+// ---- decoding
+// ----------------------------------------------------------------------------------------------
 
 // A decoded value: its type and its words in canonical order (frontend::components), bit for bit.
 struct Value {
@@ -210,8 +250,8 @@ struct Value {
 // `words`: the thread's words (layout.words of them), as read from the attachments (float attachments: the
 // floats' bits).
 Value decode(const AttachmentLayout&, const Field&, const std::uint32_t* words);
-// The same without making anything: writes frontend::wordCount(field.type) words to `out`. `components` are those
-// of the field's type, asked for once.
+// The same without making anything: writes frontend::wordCount(field.type) words to `out`. `components` are
+// those of the field's type, asked for once.
 void decodeInto(const AttachmentLayout&, const Field&, const std::vector<frontend::Component>& components,
                 const std::uint32_t* words, std::uint32_t* out);
 // The mark word of a thread under any carrier.
@@ -232,21 +272,21 @@ struct DiscardedThreads {
 DiscardedThreads decodeDiscarded(const AttachmentLayout&, const std::vector<std::uint32_t>& block);
 
 struct Record {
-  int layout = 0;                     // index into RecordingLayout::records
-  std::vector<Value> values;          // one per field of that layout
+  int layout = 0;             // index into RecordingLayout::records
+  std::vector<Value> values;  // one per field of that layout
 };
 struct ThreadRecording {
   int x = 0, y = 0;
-  std::uint32_t invocation = 0;       // order of start + 1
+  std::uint32_t invocation = 0;  // order of start + 1
   bool discarded = false;
-  bool complete = false;              // false: not enough room; `wanted` says how many words were needed
+  bool complete = false;  // false: not enough room; `wanted` says how many words were needed
   std::uint32_t wanted = 0;
   std::vector<Record> records;
 };
 struct Recording {
-  std::uint32_t started = 0;          // threads on the recorded pixels
+  std::uint32_t started = 0;  // threads on the recorded pixels
   std::vector<ThreadRecording> threads;
-  std::string error;                  // a stream that does not decode is an error, never half a result
+  std::string error;  // a stream that does not decode is an error, never half a result
 };
 Recording decodeRecording(const RecordingLayout&, const std::vector<std::uint32_t>& words);
 

@@ -32,9 +32,9 @@ std::string namedLikeKeyword(const Shader& shader) {
 std::string noStorage(const Shader& shader, const Target& target) {
   if (isEs(shader) && shader.version < 310) return "storage buffers, which GLSL ES has from 3.10 on";
   if (!target.storage_buffers)
-    return "storage buffers in fragment shaders (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object), which "
-           "this "
-           "driver lacks";
+    return "storage buffers in this stage (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object), which this "
+           "driver "
+           "lacks";
   const std::string name = namedLikeKeyword(shader);
   if (!name.empty()) return "storage buffers, with which the shader's name '" + name + "' becomes a keyword";
   return "";

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::uint32_t kFirstRoomPerThread = 1 << 16;  // words a recorded thread may write at the first try
 constexpr std::uint32_t kThreadsPerPixel = 16;          // fragments expected at most on one pixel, first try
+constexpr std::uint32_t kThreadsPerIdentity = 4;        // a vertex may be shaded several times
 constexpr std::uint64_t kNoRoom = instrumenter::kDiscardedHeader;  // words of a storage buffer for no thread
-constexpr std::uint64_t kMostRecordingWords = 1ull << 28;          // 1 GiB
 
 }  // namespace
 
@@ -197,7 +197,8 @@ Prepared Session::send(wire::PrepareT&& prepare) {
 
 Prepared Session::prepare(const instrumenter::AttachmentShader& instrumented) {
   requireCapturable();
-  auto prepare = preparation(shader(Stage::fragment), instrumented.text, instrumented.layout);
+  if (stage() != Stage::fragment) return prepareStages(instrumented.text, instrumented.layout);
+  auto prepare = preparation(shader(), instrumented.text, instrumented.layout);
   prepare.storage_block = instrumented.layout.discarded_block;
   Prepared prepared = send(std::move(prepare));
   prepared.storage = !instrumented.layout.discarded_block.empty();
@@ -206,7 +207,13 @@ Prepared Session::prepare(const instrumenter::AttachmentShader& instrumented) {
 
 Prepared Session::prepare(const instrumenter::RecordingShader& instrumented) {
   requireCapturable();
-  auto prepare = preparation(shader(Stage::fragment), instrumented.text, instrumented.layout.attachment);
+  if (stage() != Stage::fragment) {
+    instrumenter::AttachmentLayout block;
+    block.words = 0;
+    block.list_block = instrumented.layout.block;
+    return prepareStages(instrumented.text, block);
+  }
+  auto prepare = preparation(shader(), instrumented.text, instrumented.layout.attachment);
   prepare.storage_block = instrumented.layout.block;
   return send(std::move(prepare));
 }
@@ -215,14 +222,17 @@ Prepared Session::prepareOriginal() {
   return prepareText("");
 }
 
-Prepared Session::prepareText(const std::string& fragment_text) {
+Prepared Session::prepareText(const std::string& text) {
   requireCapturable();
-  return send(preparation(shader(Stage::fragment), fragment_text));
+  if (stage() == Stage::fragment) return send(preparation(shader(), text));
+  instrumenter::AttachmentLayout none;
+  none.words = 0;
+  return prepareStages(text, none);
 }
 
 Prepared Session::prepareCovering(const std::string& fragment_text, const std::string& vertex_text) {
   requireCapturable();
-  wire::PrepareT prepare = preparation(shader(Stage::fragment), fragment_text);
+  wire::PrepareT prepare = preparation(shader(), fragment_text);
   prepare.geometry = wire::Geometry::Covering;
   prepare.vertex_text = vertex_text;
   return send(std::move(prepare));
@@ -286,6 +296,8 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
     result.outputs.push_back(std::move(output));
   }
   result.storage = copyOf(wordsOf(bulk, reply.storage.get()));
+  result.feedback = wordsOf(bulk, reply.feedback.get());
+  result.feedback_words = static_cast<int>(reply.feedback_words);
   for (const std::uint64_t ns : reply.times_ns) result.times.emplace_back(ns);
   for (const std::uint64_t ns : reply.cpu_ns) result.cpu_times.emplace_back(ns);
   result.check.compared_at_all = options.compare && reply.compare_reason.empty();
@@ -294,7 +306,8 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   result.check.reason = options.compare ? reply.compare_reason : "not asked for";
   // What is looked at there is one plane of the target.
   const bool one_plane = facts().layers <= 1 && facts().samples <= 1;
-  if (reply.differing + reply.unstable > 0 && reply.outside_colors == 0 && one_plane) {
+  if (stage() == Stage::fragment && reply.differing + reply.unstable > 0 && reply.outside_colors == 0 &&
+      one_plane) {
     leaveOutUndefined(prepared, options, reply.unstable, result.check);
   }
   return result;
@@ -347,12 +360,13 @@ Captured Session::capture(const instrumenter::AttachmentShader& instrumented, co
 
 Captured Session::capture(const Prepared& prepared, const instrumenter::AttachmentLayout& layout,
                           const ExecuteOptions& options) {
+  if (stage() != Stage::fragment) return captureThreads(prepared, layout, options);
   Captured captured;
   captured.layout = layout;
   if (layout.discarded_block.empty()) {
     captured.execution = execute(prepared, options);
     captured.threads = joinAttachments(captured.execution, layout.words);
-    if (shader(Stage::fragment).traits.uses_discard) {
+    if (shader().traits.uses_discard) {
       captured.execution.check.left_out =
           "threads that end in a discard write nothing and are left out (this driver or dialect has no "
           "storage "
@@ -362,7 +376,7 @@ Captured Session::capture(const Prepared& prepared, const instrumenter::Attachme
     const instrumenter::DiscardedThreads discarded = executeWithList(prepared, options, captured);
     captured.threads = joinAttachments(captured.execution, layout.words);
     captured.execution.check.left_out =
-        addDiscarded(captured.threads, layout, discarded, countsRowsFromTop(shader(Stage::fragment)));
+        addDiscarded(captured.threads, layout, discarded, countsRowsFromTop(shader()));
     captured.execution.storage.clear();
   }
   captured.execution.attachments.clear();
@@ -374,7 +388,7 @@ Captured Session::capture(const Prepared& prepared, const instrumenter::Attachme
 instrumenter::DiscardedThreads Session::executeWithList(const Prepared& prepared, ExecuteOptions options,
                                                         Captured& captured) {
   const auto words = static_cast<std::uint64_t>(captured.layout.discarded_words);
-  const std::uint64_t most = (kMostRecordingWords - kNoRoom) / words;
+  const std::uint64_t most = (kMostWords - kNoRoom) / words;
   while (true) {
     const std::uint64_t room = std::min(state_->discarded_room, most);
     options.storage = {0, static_cast<std::uint32_t>(room), 0, 0};
@@ -387,7 +401,7 @@ instrumenter::DiscardedThreads Session::executeWithList(const Prepared& prepared
 }
 
 Session::PreparedRecording Session::prepareRecording() {
-  auto instrumented = instrumenter::instrumentRecording(shader(Stage::fragment), target());
+  auto instrumented = instrumenter::instrumentRecording(shader(), target());
   if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) {
     throw Error(Outcome::cannot_debug, failure->reason);
   }
@@ -401,45 +415,58 @@ Session::Recorded Session::record(int x, int y, int width, int height) {
 }
 
 Session::Recorded Session::record(const PreparedRecording& prepared, int x, int y, int width, int height) {
-  const instrumenter::RecordingShader& recording_shader = prepared.shader;
   // The shader compares with gl_FragCoord, which may count rows from the top.
-  const bool from_top = countsRowsFromTop(shader(Stage::fragment));
+  const bool from_top = countsRowsFromTop(shader());
   const int first_row = from_top ? facts().height - y - height : y;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  std::uint64_t threads = pixels * kThreadsPerPixel;
-  std::uint64_t room = pixels == 1 ? kFirstRoomPerThread : 4096;
+  const std::uint64_t room = pixels == 1 ? kFirstRoomPerThread : 4096;
+  Recorded recorded = recordWith(prepared,
+                                 {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(first_row),
+                                  static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)},
+                                 pixels * kThreadsPerPixel, room);
+  if (from_top) {
+    for (auto& thread : recorded.recording.threads) thread.y = facts().height - 1 - thread.y;
+  }
+  recorded.visible = joinAttachments(recorded.execution, recorded.layout.attachment.words);
+  return recorded;
+}
+
+Session::Recorded Session::record(const PreparedRecording& prepared,
+                                  const std::vector<std::int32_t>& identity) {
+  std::vector<std::uint32_t> thread(4);
+  for (std::size_t i = 0; i < identity.size() && i < thread.size(); ++i)
+    thread[i] = static_cast<std::uint32_t>(identity[i]);
+  return recordWith(prepared, thread, kThreadsPerIdentity, kFirstRoomPerThread);
+}
+
+// With as much room as is needed: `threads` and `room` (words each) are the first try.
+Session::Recorded Session::recordWith(const PreparedRecording& prepared,
+                                      const std::vector<std::uint32_t>& which, std::uint64_t threads,
+                                      std::uint64_t room) {
+  const instrumenter::RecordingLayout& layout = prepared.shader.layout;
   while (true) {
     const std::uint64_t words = instrumenter::kRecordingHeader + threads * room;
-    if (words > kMostRecordingWords) {
-      throw Error(Outcome::cannot_debug, "the recording of these pixels would take " +
+    if (words > kMostWords) {
+      throw Error(Outcome::cannot_debug, "the recording of these threads would take " +
                                              std::to_string(words * 4 >> 20) +
-                                             " MiB; record fewer pixels at once");
+                                             " MiB; record fewer of them at once");
     }
     ExecuteOptions options;
-    options.uniforms.push_back({recording_shader.layout.pixel_uniform,
-                                0x8B55,
-                                {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(first_row),
-                                 static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}});
+    options.uniforms.push_back({layout.pixel_uniform, 0x8B55, which});
     options.storage = {0, static_cast<std::uint32_t>(room), static_cast<std::uint32_t>(threads), 0};
     options.storage_words = words;
     options.read_outputs = true;
     Recorded recorded;
     recorded.execution = execute(prepared.program, options);
-    recorded.layout = recording_shader.layout;
-    recorded.recording = instrumenter::decodeRecording(recording_shader.layout, recorded.execution.storage);
+    recorded.layout = layout;
+    recorded.recording = instrumenter::decodeRecording(layout, recorded.execution.storage);
     if (!recorded.recording.error.empty()) throw Error(Outcome::failed, recorded.recording.error);
 
     std::uint64_t wanted = 0;
     for (const auto& thread : recorded.recording.threads) {
       if (!thread.complete) wanted = std::max<std::uint64_t>(wanted, thread.wanted);
     }
-    if (wanted == 0 && recorded.recording.started <= threads) {
-      for (auto& thread : recorded.recording.threads) {
-        if (from_top) thread.y = facts().height - 1 - thread.y;
-      }
-      recorded.visible = joinAttachments(recorded.execution, recording_shader.layout.attachment.words);
-      return recorded;
-    }
+    if (wanted == 0 && recorded.recording.started <= threads) return recorded;
     threads = std::max<std::uint64_t>(recorded.recording.started, 1);
     room = std::max<std::uint64_t>(room, wanted + instrumenter::kThreadHeader);
   }

@@ -1,6 +1,7 @@
 #include "session/probed_run.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "session/navigation.h"
@@ -24,12 +25,16 @@ bool runsAsAWhole(const Statement& statement) {
 
 class ProbedRun {
  public:
-  ProbedRun(Session& session, int x, int y)
-      : session_(session), shader_(session.shader(Stage::fragment)), navigation_(shader_), x_(x), y_(y) {}
+  // The thread's words in a capture; null if it is not there.
+  using Find = std::function<const std::uint32_t*(const Captured&)>;
+  ProbedRun(Session& session, Find find, std::string none)
+      : session_(session),
+        shader_(session.shader()),
+        navigation_(shader_),
+        find_(std::move(find)),
+        none_(std::move(none)) {}
 
   ThreadRun follow(std::size_t most_steps) {
-    run_.x = x_;
-    run_.y = y_;
     Position position = navigation_.start();
     while (!position.ended() && !run_.discarded) {
       if (run_.steps.size() >= most_steps) {
@@ -38,7 +43,6 @@ class ProbedRun {
       }
       position = position.condition ? decide(position) : carryOut(position);
     }
-    readOutputs();
     return std::move(run_);
   }
 
@@ -67,13 +71,9 @@ class ProbedRun {
       const Captured captured = session_.capture(std::get<instrumenter::AttachmentShader>(instrumented));
       looked = true;
       run_.check.merge(captured.execution.check);
-      const std::uint32_t* words = captured.threads.at(x_, y_);
-      const std::uint32_t mark = instrumenter::decodeMark(captured.layout, words);
-      if (mark == 0 && run_.steps.empty()) {
-        throw Error(Outcome::nothing_matches, "the draw has no visible fragment on pixel " +
-                                                  std::to_string(x_) + "," + std::to_string(y_) +
-                                                  "; pick one that it covers");
-      }
+      const std::uint32_t* words = find_(captured);
+      const std::uint32_t mark = words == nullptr ? 0 : instrumenter::decodeMark(captured.layout, words);
+      if (mark == 0 && run_.steps.empty()) throw Error(Outcome::nothing_matches, none_);
       reached_ = (mark & instrumenter::kReached) != 0;
       if (!reached_) return {};
       std::size_t taken = 0;
@@ -226,18 +226,11 @@ class ProbedRun {
     return {};
   }
 
-  void readOutputs() {
-    ExecuteOptions options;
-    options.compare = false;
-    options.read_outputs = true;
-    const Execution execution = session_.execute(session_.prepareOriginal(), options);
-    run_.outputs = outputsAt(execution, x_, y_);
-  }
-
   Session& session_;
   const Shader& shader_;
   Navigation navigation_;
-  int x_, y_;
+  Find find_;
+  std::string none_;  // what to say if the thread is not there
   ThreadRun run_;
   bool reached_ = false;
   std::map<VariableId, Value> known_;
@@ -246,7 +239,26 @@ class ProbedRun {
 }  // namespace
 
 ThreadRun followPixelByProbes(Session& session, int x, int y, std::size_t most_steps) {
-  return ProbedRun(session, x, y).follow(most_steps);
+  const auto find = [x, y](const Captured& captured) { return captured.threads.at(x, y); };
+  ThreadRun run = ProbedRun(session, find,
+                            "the draw has no visible fragment on pixel " + std::to_string(x) + "," +
+                                std::to_string(y) + "; pick one that it covers")
+                      .follow(most_steps);
+  run.x = x;
+  run.y = y;
+  ExecuteOptions options;
+  options.compare = false;
+  options.read_outputs = true;
+  run.outputs = outputsAt(session.execute(session.prepareOriginal(), options), x, y);
+  return run;
+}
+
+ThreadRun followThreadByProbes(Session& session, std::size_t number, std::size_t most_steps) {
+  const auto find = [number](const Captured& captured) {
+    const bool there = number < static_cast<std::size_t>(captured.threads.width);
+    return there ? captured.threads.at(static_cast<int>(number), 0) : nullptr;
+  };
+  return ProbedRun(session, find, "the draw does not run this thread").follow(most_steps);
 }
 
 }  // namespace shadestep::session

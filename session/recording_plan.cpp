@@ -11,7 +11,10 @@ namespace {
 
 using instrumenter::Probe;
 
-void requireRecorded(const Probe& probe) {
+void requireRecorded(const Session& session, const Probe& probe) {
+  if (session.stage() != Stage::fragment)
+    throw Error(Outcome::cannot_debug,
+                "all threads are recorded of fragment shaders only; take --plan single");
   if (probe.call_path.empty() && probe.inside == frontend::kNone) return;
   throw Error(
       Outcome::cannot_debug,
@@ -83,7 +86,7 @@ ThreadValues RecordingPlan::given(const std::vector<frontend::Watch>& watches) {
 }
 
 ThreadValues RecordingPlan::look(const Probe& probe) {
-  requireRecorded(probe);
+  requireRecorded(session_, probe);
   if (!recorded_) record();
   const frontend::Shader& shader = session_.shader(Stage::fragment);
   const ThreadValues given = this->given(probe.watches);

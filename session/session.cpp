@@ -60,6 +60,11 @@ DrawFacts unpack(const wire::DrawT& draw) {
   facts.layers = draw.layers;
   facts.samples = draw.samples;
   for (const auto& uniform : draw.uniforms) facts.active_uniforms[uniform->name] = uniform->size;
+  facts.replay_reason = draw.replay_reason;
+  facts.feedback_components = draw.feedback_components;
+  facts.draws_points = draw.draws_points;
+  for (std::size_t i = 0; i < 6 && i < draw.storage_blocks.size(); ++i)
+    facts.storage_blocks[i] = draw.storage_blocks[i];
   return facts;
 }
 
@@ -260,25 +265,39 @@ std::vector<std::pair<std::string, std::string>> Session::glState() {
   return values;
 }
 
+void Session::select(Stage stage) {
+  state_->stage = stage;
+}
+
+Stage Session::stage() const {
+  return state_->stage;
+}
+
 void Session::requireCapturable() {
-  shader(Stage::fragment);  // throws if it cannot be analysed
+  shader();  // throws if it cannot be analysed
   const DrawFacts& draw = facts();
-  if (!draw.target_reason.empty()) throw Error(Outcome::cannot_debug, draw.target_reason);
+  const std::string& reason = stage() == Stage::fragment ? draw.target_reason : draw.replay_reason;
+  if (!reason.empty()) throw Error(Outcome::cannot_debug, reason);
 }
 
 instrumenter::Target Session::target() {
   const DrawFacts& draw = facts();
   const int version = draw.major * 100 + draw.minor * 10;
   instrumenter::Target target;
-  const auto& tokens = shader(Stage::fragment).tokens;
+  const auto& tokens = shader().tokens;
   const auto own_blocks = std::count_if(tokens.begin(), tokens.end(),
                                         [](const frontend::Token& token) { return token.text == "buffer"; });
-  target.storage_buffers = draw.max_storage_blocks > own_blocks;
+  target.storage_buffers = draw.storage_blocks[static_cast<std::size_t>(stage())] > own_blocks;
   target.bit_encoding = draw.has("GL_ARB_shader_bit_encoding") || (draw.es ? version >= 300 : version >= 330);
   target.shader_clock = draw.has("GL_ARB_shader_clock");
   target.es_draw_buffers = draw.has("GL_EXT_draw_buffers");
   target.max_draw_buffers = draw.max_draw_buffers;
   target.used_draw_buffers = draw.draw_buffers;
+  target.gpu_shader4 = draw.has("GL_EXT_gpu_shader4");
+  target.draw_instanced = draw.has("GL_ARB_draw_instanced");
+  if (draw.feedback_components > 0 && draw.draws_points && stage() == Stage::vertex)
+    target.feedback_components =
+        draw.feedback_components - comparedOutputs(shader(), draw.feedback_components).words;
   return target;
 }
 

@@ -85,6 +85,10 @@ struct DrawFacts {
   // Of the program: name, as glGetActiveUniform tells it, and elements. All others were dropped by the
   // driver, and with them what the program set.
   std::map<std::string, int> active_uniforms;
+  std::string replay_reason;    // why stages before rasterization cannot be replayed; empty if they can
+  int feedback_components = 0;  // that transform feedback captures of a vertex; 0 = there is none
+  bool draws_points = false;    // the call can be replayed as points
+  int storage_blocks[6] = {};   // of each stage
 
   bool has(const std::string& extension) const;
 };
@@ -157,13 +161,18 @@ struct Execution {
   std::shared_ptr<const wire::SharedMemory> memory;
   std::vector<ColorOutput> outputs;  // the program's own
   std::vector<std::uint32_t> storage;
+  std::span<const std::uint32_t>
+      feedback;  // records of `feedback_words`, the captured ones first; in `memory`
+  int feedback_words = 0;
   // One per repeat (and set, the sets of a repeat in order), of draw + glFinish: on the CPU's clock, and as
   // CPU time of all threads of the program.
   std::vector<std::chrono::nanoseconds> times, cpu_times;
   Check check;
 };
 
-// The words of all threads of a capture, one block of `words` per pixel.
+// The words of all threads of a capture, one block of `words` per pixel. Of other stages than the fragment
+// stage the threads lie in one row, in the order of their identities or, by transform feedback, as they were
+// issued.
 struct ThreadWords {
   int width = 0, height = 0, words = 0;
   std::vector<std::uint32_t> data;
@@ -248,12 +257,18 @@ class Session {
   // The analysed shader of a stage. Throws cannot_debug with the reason, nothing_matches if there is no such
   // stage.
   const frontend::Shader& shader(Stage);
-  instrumenter::Target target();  // what the driver offers to instrumented fragment shaders
+
+  // The stage that is looked at, at this and later stops: shader(), target() and all capture passes are about
+  // it.
+  void select(Stage);
+  Stage stage() const;
+  const frontend::Shader& shader() { return shader(stage()); }
+  instrumenter::Target target();  // what the driver offers to instrumented shaders of this stage
 
   // All state of the program's context that can be asked for: names and values, always in the same order.
   std::vector<std::pair<std::string, std::string>> glState();
 
-  // Throws cannot_debug, with the reason, if captures of the fragment shader cannot work at this draw.
+  // Throws cannot_debug, with the reason, if captures of the selected stage cannot work at this draw.
   void requireCapturable();
 
   // ---- capture passes at the current stop ----
@@ -262,9 +277,8 @@ class Session {
   void choose(const FragmentChoice&);
   Prepared prepare(const instrumenter::AttachmentShader&);
   Prepared prepare(const instrumenter::RecordingShader&);
-  Prepared prepareOriginal();  // the program's own text
-  Prepared prepareText(
-      const std::string& fragment_text);  // another text with the same outputs, without captures
+  Prepared prepareOriginal();                     // the program's own text
+  Prepared prepareText(const std::string& text);  // another text with the same outputs, without captures
   Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);  // isolate
   Execution execute(const Prepared&, const ExecuteOptions& = {});
   // prepare + execute + join the attachments per pixel. Threads that end in a discard are put where the draw
@@ -287,12 +301,18 @@ class Session {
   };
   Recorded record(const PreparedRecording&, int x, int y, int width, int height);
   Recorded record(int x, int y, int width, int height);  // prepares it first
+  // One thread of another stage, by its identity. Its layout has no attachment.
+  Recorded record(const PreparedRecording&, const std::vector<std::int32_t>& identity);
 
   void release(std::uint32_t handle) noexcept;  // by ~Prepared
 
  private:
   Prepared send(wire::PrepareT&&);
   instrumenter::DiscardedThreads executeWithList(const Prepared&, ExecuteOptions, Captured&);
+  Captured captureThreads(const Prepared&, const instrumenter::AttachmentLayout&, const ExecuteOptions&);
+  Prepared prepareStages(const std::string& text, const instrumenter::AttachmentLayout&);
+  Recorded recordWith(const PreparedRecording&, const std::vector<std::uint32_t>& which,
+                      std::uint64_t threads, std::uint64_t room);
   void leaveOutUndefined(const Prepared&, const ExecuteOptions&, std::uint64_t unstable, Check&);
   struct State;
   std::unique_ptr<State> state_;

@@ -17,6 +17,17 @@ namespace shadestep::session {
 
 inline constexpr std::uint64_t kFirstDiscardedRoom = 256;  // threads that end in a discard, at the first try
 
+inline constexpr std::uint64_t kFirstListedRoom = 4096;  // threads of other stages, at the first try
+inline constexpr std::uint64_t kMostWords = 1ull << 28;  // of a storage buffer of ours: 1 GiB
+
+// The original outputs of a stage before rasterization that transform feedback captures beside our words.
+struct ComparedOutputs {
+  std::vector<std::string> names;
+  int words = 0;
+  std::string left_out;  // names of those that there is no room for
+};
+ComparedOutputs comparedOutputs(const frontend::Shader& last, int components);
+
 struct Session::State {
   State(const LaunchOptions& options, const std::string& interceptor) : programs(options, interceptor) {
     if (options.timeout.count() > 0) deadline = std::chrono::steady_clock::now() + options.timeout;
@@ -32,7 +43,9 @@ struct Session::State {
   std::map<Stage, frontend::Shader> shaders;
   std::optional<UndefinedOutputs> undefined;
   FragmentChoice fragments;
+  Stage stage = Stage::fragment;                       // that is looked at
   std::uint64_t discarded_room = kFirstDiscardedRoom;  // of the current stop
+  std::uint64_t listed_room = kFirstListedRoom;
 
   void leaveStop() {
     stop.reset();
@@ -41,6 +54,7 @@ struct Session::State {
     shaders.clear();
     undefined.reset();
     discarded_room = kFirstDiscardedRoom;
+    listed_room = kFirstListedRoom;
   }
 
   // Runs on under the policy until the program stops; null: it has ended.

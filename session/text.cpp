@@ -25,7 +25,7 @@ std::string describe(const Check& check) {
 
 std::string withThousands(std::uint64_t value) {
   std::string digits = std::to_string(value);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
   return digits;
 }
 
@@ -67,30 +67,47 @@ std::string errorName(std::uint32_t error) {
   return text;
 }
 
-std::string asCsv(const ThreadValues& threads) {
-  std::string csv = "x,y";
-  for (const WatchedValues& watched : threads.values) {
-    if (!watched.no_value.empty()) continue;
-    for (const auto& component : frontend::components(watched.type))
-      csv += "," + watched.name + component.access;
+namespace {
+
+// A cell, and what stands between it and the one before it in its row.
+void addCell(std::string& csv, const std::string& text) {
+  if (!csv.empty() && csv.back() != '\n') csv += ',';
+  csv += text;
+}
+
+void addCells(std::string& csv, const WatchedValues& watched, std::size_t thread) {
+  if (!watched.no_value.empty()) return;
+  const std::uint32_t* word = watched.at(thread);
+  for (const auto& component : frontend::components(watched.type)) {
+    addCell(csv, formatComponent(component.basic, word));
+    word += wordsPerComponent(component.basic);
   }
-  csv += "\n";
-  for (int y = 0; y < threads.height; ++y) {
-    for (int x = 0; x < threads.width; ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(threads.width) + static_cast<std::size_t>(x);
-      if (!threads.reachedAt(pixel)) continue;
-      csv += std::to_string(x) + "," + std::to_string(y);
-      for (const WatchedValues& watched : threads.values) {
-        if (!watched.no_value.empty()) continue;
-        const std::uint32_t* word = watched.at(pixel);
-        for (const auto& component : frontend::components(watched.type)) {
-          csv += "," + formatComponent(component.basic, word);
-          word += wordsPerComponent(component.basic);
-        }
-      }
-      csv += "\n";
+}
+
+}  // namespace
+
+std::string asCsv(const ThreadValues& threads) {
+  const bool pixels = threads.identity.empty();
+  std::string csv;
+  if (pixels) csv += "x,y";
+  for (const auto* list : {&threads.identity, &threads.values}) {
+    for (const WatchedValues& watched : *list) {
+      if (!watched.no_value.empty()) continue;
+      for (const auto& component : frontend::components(watched.type))
+        addCell(csv, watched.name + component.access);
     }
+  }
+  csv += '\n';
+  const auto width = static_cast<std::size_t>(threads.width);
+  for (std::size_t thread = 0; thread < threads.marks.size(); ++thread) {
+    if (!threads.reachedAt(thread)) continue;
+    if (pixels) {
+      addCell(csv, std::to_string(thread % width));
+      addCell(csv, std::to_string(thread / width));
+    }
+    for (const auto* list : {&threads.identity, &threads.values})
+      for (const WatchedValues& watched : *list) addCells(csv, watched, thread);
+    csv += '\n';
   }
   return csv;
 }

@@ -18,10 +18,12 @@ std::string withThousands(std::uint64_t value);  // "1,048,576"
 std::string primitiveModeName(std::uint32_t mode);
 std::string errorName(std::uint32_t error);  // "GL_INVALID_ENUM"
 
-// "glDrawArrays(mode = GL_TRIANGLES, first = 0, count = 3)", with its result, its error, and what became of it.
+// "glDrawArrays(mode = GL_TRIANGLES, first = 0, count = 3)", with its result, its error, and what became of
+// it.
 std::string describe(const LoggedCall&);
 
-// A header line, then a row for each thread that got to the place: x, y, and the values, a component each.
+// A header line, then a row for each thread that got to the place: x, y, or who else the thread is, and the
+// values, a component each.
 std::string asCsv(const ThreadValues&);
 
 }  // namespace shadestep::session

@@ -23,7 +23,7 @@ struct Step {
     return_,
     jump,        // break, continue, discard
     declarator,  // one of a declaration's names, where others follow; the last is the statement
-    cut,   // the driver ended a loop whose condition still held (llvmpipe does, after 65,536 iterations)
+    cut,  // the driver ended a loop whose condition still held (llvmpipe does, after 65,536 iterations)
   };
   Kind kind = Kind::statement;
   frontend::StatementId statement = frontend::kNone;
@@ -46,6 +46,8 @@ struct Step {
 };
 
 struct ThreadRun {
+  std::vector<NamedValue> identity;  // of other stages than the fragment stage: who it is
+  std::vector<NamedValue> inputs;    // of those: what it began with
   int x = 0, y = 0;
   int hit = 0;           // number of this fragment among those on its pixel, in order of start
   int hits = 1;          // fragments on the pixel
@@ -67,6 +69,10 @@ struct ThreadRun {
 // Throws nothing_matches if no fragment of the draw is there. Where the driver or the shader's dialect has no
 // storage buffers, only the visible fragment can be followed, by one redraw per step (probed_run.h).
 ThreadRun followPixel(Session&, int x, int y, int hit = -1);
+
+// The same of a thread of the selected stage, which is another one, by its identity (ThreadValues::identity);
+// numbers left out are 0. Throws nothing_matches, saying what there is.
+ThreadRun followThread(Session&, std::vector<std::int32_t> identity);
 
 // Number of the recorded thread that the pixel shows; -1 if it shows none of them.
 int visibleThread(const Session::Recorded&, int x, int y);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "glsl-frontend/watch.h"
 #include "session/values.h"
@@ -101,7 +103,7 @@ Probe probeAt(const Shader& shader, const PlaceSelection& place) {
 
 ThreadValues valuesAt(Session& session, const PlaceSelection& place,
                       const std::vector<std::string>& watches) {
-  return valuesAt(session, probeAt(session.shader(Stage::fragment), place), watches);
+  return valuesAt(session, probeAt(session.shader(), place), watches);
 }
 
 // Inside of a declaration's own expressions its names are not there yet; in the head of a `for` those of its
@@ -137,6 +139,27 @@ std::vector<frontend::Watch> watchesAt(const Shader& shader, const Probe& probe,
   return watches;
 }
 
+namespace {
+
+template <class Has>
+WatchedValues valuesOf(const ThreadWords& threads, const instrumenter::AttachmentLayout& layout,
+                       const instrumenter::Field& field, Has has) {
+  const std::vector<frontend::Component> components = frontend::components(field.type);
+  const auto stride = static_cast<std::size_t>(layout.words);
+  const std::size_t count =
+      static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(threads.height);
+  WatchedValues values{field.name, field.type, static_cast<std::size_t>(frontend::wordCount(field.type)), {}};
+  values.words.assign(count * values.stride, 0);
+  for (std::size_t p = 0; p < count; ++p) {
+    if (!has(p)) continue;
+    instrumenter::decodeInto(layout, field, components, threads.data.data() + p * stride,
+                             values.words.data() + p * values.stride);
+  }
+  return values;
+}
+
+}  // namespace
+
 void addPass(ThreadValues& result, const ThreadWords& threads, const instrumenter::AttachmentLayout& layout,
              const Check& check) {
   const std::size_t pixels =
@@ -165,27 +188,107 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
     result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
     result.discarded += (mark & instrumenter::kDiscarded) != 0 ? 1 : 0;
   }
-  for (const instrumenter::Field& field : layout.fields) {
-    const std::vector<frontend::Component> components = frontend::components(field.type);
-    WatchedValues values{
-        field.name, field.type, static_cast<std::size_t>(frontend::wordCount(field.type)), {}};
-    values.words.assign(pixels * values.stride, 0);
-    for (std::size_t p = 0; p < pixels; ++p) {
-      if (!result.reachedAt(p)) continue;
-      instrumenter::decodeInto(layout, field, components, threads.data.data() + p * stride,
-                               values.words.data() + p * values.stride);
-    }
-    result.values.push_back(std::move(values));
+  if (first) {
+    for (const instrumenter::Field& field : layout.identity)
+      result.identity.push_back(
+          valuesOf(threads, layout, field, [&](std::size_t p) { return result.marks[p] != 0; }));
   }
+  for (const instrumenter::Field& field : layout.fields)
+    result.values.push_back(
+        valuesOf(threads, layout, field, [&](std::size_t p) { return result.reachedAt(p); }));
+}
+
+std::optional<std::size_t> ThreadValues::find(const std::vector<std::int32_t>& wanted) const {
+  for (std::size_t p = 0; p < marks.size(); ++p) {
+    bool same = marks[p] != 0;
+    for (std::size_t i = 0; i < identity.size() && i < wanted.size(); ++i)
+      same = same && static_cast<std::int32_t>(*identity[i].at(p)) == wanted[i];
+    if (same) return p;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+WatchedValues numbers(const std::string& name, std::size_t count) {
+  WatchedValues values{name, {}, 1, std::vector<std::uint32_t>(count)};
+  values.type.basic = frontend::Basic::int_;
+  return values;
+}
+
+// All words that belong to a thread.
+std::vector<std::uint32_t> wordsAt(const ThreadValues& threads, std::size_t thread) {
+  std::vector<std::uint32_t> words = {threads.marks[thread]};
+  for (const auto* list : {&threads.identity, &threads.values})
+    for (const WatchedValues& values : *list)
+      words.insert(words.end(), values.at(thread), values.at(thread) + values.stride);
+  return words;
+}
+
+void keep(WatchedValues& values, const std::vector<std::size_t>& kept) {
+  std::vector<std::uint32_t> words;
+  for (const std::size_t thread : kept)
+    words.insert(words.end(), values.at(thread), values.at(thread) + values.stride);
+  values.words = std::move(words);
+}
+
+}  // namespace
+
+void nameThreads(ThreadValues& threads, std::int64_t instances) {
+  const std::size_t count = threads.marks.size();
+  if (threads.identity.empty()) {
+    threads.identity = {numbers("vertex", count), numbers("instance", count)};
+    const std::size_t each =
+        std::max<std::size_t>(count / static_cast<std::size_t>(std::max<std::int64_t>(instances, 1)), 1);
+    for (std::size_t p = 0; p < count; ++p) {
+      threads.identity[0].words[p] = static_cast<std::uint32_t>(p % each);
+      threads.identity[1].words[p] = static_cast<std::uint32_t>(p / each);
+    }
+    return;
+  }
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto before = [&](std::size_t a, std::size_t b) {
+    for (const WatchedValues& one : threads.identity)
+      if (*one.at(a) != *one.at(b)) return *one.at(a) < *one.at(b);
+    return a < b;
+  };
+  std::sort(order.begin(), order.end(), before);
+  std::vector<std::size_t> kept;
+  std::set<std::vector<std::uint32_t>> same;  // of one identity
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto identical = [&](std::size_t a, std::size_t b) {
+      return std::all_of(threads.identity.begin(), threads.identity.end(),
+                         [&](const WatchedValues& one) { return *one.at(a) == *one.at(b); });
+    };
+    const bool alone = (i == 0 || !identical(order[i - 1], order[i])) &&
+                       (i + 1 == count || !identical(order[i], order[i + 1]));
+    if (i == 0 || !identical(order[i - 1], order[i])) same.clear();
+    if (alone || same.insert(wordsAt(threads, order[i])).second) kept.push_back(order[i]);
+  }
+  std::sort(kept.begin(), kept.end());
+  if (kept.size() == count) return;
+
+  for (auto* list : {&threads.identity, &threads.values})
+    for (WatchedValues& values : *list) keep(values, kept);
+  std::vector<std::uint8_t> marks;
+  threads.launched = threads.reached = 0;
+  for (const std::size_t p : kept) {
+    marks.push_back(threads.marks[p]);
+    threads.launched += marks.back() != 0 ? 1 : 0;
+    threads.reached += (marks.back() & instrumenter::kReached) != 0 ? 1 : 0;
+  }
+  threads.marks = std::move(marks);
+  threads.width = static_cast<int>(kept.size());
 }
 
 ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {
-  probe.watches = watchesAt(session.shader(Stage::fragment), probe, watches);
+  probe.watches = watchesAt(session.shader(), probe, watches);
   return valuesAt(session, std::move(probe));
 }
 
 ThreadValues valuesAt(Session& session, Probe probe) {
-  const Shader& shader = session.shader(Stage::fragment);
+  const Shader& shader = session.shader();
   const std::vector<frontend::Watch> wanted = std::move(probe.watches);
   ThreadValues result;
   result.statement = probe.statement;
@@ -202,15 +305,15 @@ ThreadValues valuesAt(Session& session, Probe probe) {
     const std::size_t watched = fields - (probe.outcome ? 1 : 0);
     if (watched == 0 && done < wanted.size()) {
       throw Error(Outcome::cannot_debug, "'" + wanted[done].expression +
-                                             "' is larger than what the driver's " +
-                                             std::to_string(session.facts().max_draw_buffers) +
-                                             " draw buffers hold (GL_MAX_DRAW_BUFFERS); print a part of it");
+                                             "' is larger than what this driver lets a pass capture; print a "
+                                             "part of it");
     }
 
     addPass(result, captured.threads, captured.layout, captured.execution.check);
     done += watched;
     probe.outcome = false;  // the first pass has it
   } while (done < wanted.size());
+  if (session.stage() != Stage::fragment) nameThreads(result, session.stop().instances);
   return result;
 }
 

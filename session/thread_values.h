@@ -24,7 +24,7 @@ struct WatchedValues {
   frontend::Type type;
   std::size_t stride = 0;            // words per thread, in canonical order (frontend::components)
   std::vector<std::uint32_t> words;  // width*height*stride, rows bottom up; 0 where not reached
-  std::string no_value = {};         // why there is none, for the user ("" = there is one); then `words` are 0
+  std::string no_value = {};  // why there is none, for the user ("" = there is one); then `words` are 0
 
   const std::uint32_t* at(std::size_t pixel) const { return words.data() + pixel * stride; }
   instrumenter::Value valueAt(std::size_t pixel) const { return {type, {at(pixel), at(pixel) + stride}}; }
@@ -36,10 +36,15 @@ struct ThreadValues {
   std::uint64_t reached = 0;        // of these, those that got to the place
   std::uint64_t discarded = 0;      // of these, those that end in a discard
   std::vector<std::uint8_t> marks;  // width*height: instrumenter::kLaunched | kReached | kDiscarded
+  // Of other stages than the fragment stage, whose threads lie in one row: who they are, by one value each of
+  // "vertex" and "instance", "primitive", or "x", "y" and "z".
+  std::vector<WatchedValues> identity;
   std::vector<WatchedValues> values;
   frontend::StatementId statement = frontend::kNone;
   Check check;
 
+  // The thread with this identity; nothing if there is none.
+  std::optional<std::size_t> find(const std::vector<std::int32_t>& wanted) const;
   bool reachedAt(std::size_t pixel) const { return (marks[pixel] & instrumenter::kReached) != 0; }
 };
 
@@ -63,6 +68,11 @@ frontend::StatementId scopeAt(const frontend::Shader&, const instrumenter::Probe
 // Takes in one pass over a place: its marks, which must be those of the passes before, its fields and its
 // check.
 void addPass(ThreadValues&, const ThreadWords&, const instrumenter::AttachmentLayout&, const Check&);
+
+// To be called after the last pass: numbers the threads of a dialect that does not tell them apart, and
+// leaves one of those that are the same thread (a vertex that several indices name is one, whatever the
+// driver makes of it).
+void nameThreads(ThreadValues&, std::int64_t instances);
 
 // The statement and call path that a selection means. Throws nothing_matches.
 instrumenter::Probe probeAt(const frontend::Shader&, const PlaceSelection&);

@@ -26,7 +26,7 @@ bool captures(const Probe& probe, const Probe& wanted) {
 }
 
 instrumenter::WindowShader instrumented(Session& session, const std::vector<Probe>& probes) {
-  auto result = instrumenter::instrumentWindow(session.shader(Stage::fragment), probes, session.target());
+  auto result = instrumenter::instrumentWindow(session.shader(), probes, session.target());
   if (const auto* failure = std::get_if<instrumenter::Failure>(&result))
     throw Error(Outcome::cannot_debug, failure->reason);
   return std::get<instrumenter::WindowShader>(std::move(result));
@@ -64,6 +64,7 @@ ThreadValues Window::valuesAt(const Probe& wanted) {
   ThreadValues values;
   values.statement = wanted.statement;
   addPass(values, captured.threads, captured.layout, captured.execution.check);
+  if (session_.stage() != Stage::fragment) nameThreads(values, session_.stop().instances);
   return values;
 }
 

@@ -61,7 +61,7 @@ void WindowPlan::moveTo(const instrumenter::Probe& probe) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   window_.reset();
   draws_.clear();
-  const frontend::Shader& shader = session_.shader(Stage::fragment);
+  const frontend::Shader& shader = session_.shader();
   for (std::size_t most = size; most > 0; most /= 2) {
     try {
       const std::vector<instrumenter::Probe> probes = probesAround(shader, probe, names, most);

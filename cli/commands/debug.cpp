@@ -1,6 +1,8 @@
 // shadestep debug: one thread's whole run (--pixel), or the values at one place for all threads (--at).
 #include "cli/commands/debug.h"
 
+#include <algorithm>
+
 namespace shadestep::cli {
 namespace {
 
@@ -15,10 +17,39 @@ void requireOneFragment(const DebugOptions& options) {
   }
 }
 
+// How a thread of a stage is named on the command line.
+const char* threadOptions(session::Stage stage) {
+  switch (stage) {
+    case session::Stage::vertex:
+      return "--vertex N [--instance M]";
+    case session::Stage::tess_control:
+      return "--primitive N --vertex M";
+    case session::Stage::tess_eval:
+      return "--primitive N";
+    case session::Stage::geometry:
+      return "--primitive N [--invocation M]";
+    case session::Stage::compute:
+      return "--invocation X,Y,Z";
+    case session::Stage::fragment:
+      break;
+  }
+  return "--pixel X,Y";
+}
+
+void requireFitting(session::Stage stage, bool given, bool fits, const std::string& option) {
+  if (!given || fits) return;
+  throw session::Error(session::Outcome::usage, option + " names no thread of the " +
+                                                    session::stageName(stage) + " stage; " +
+                                                    threadOptions(stage) + " does");
+}
+
 int run(const Common& common, const DebugOptions& options) {
-  if (options.at.empty() && options.pixel.empty()) {
-    throw session::Error(session::Outcome::usage,
-                         "say which thread with --pixel X,Y, or which place with --at LINE --print NAMES");
+  const session::Stage stage = selectedStage(common);
+  const bool has_thread = !options.pixel.empty() || chosenThread(stage, options).has_value();
+  if (options.at.empty() && !has_thread) {
+    throw session::Error(session::Outcome::usage, std::string("say which thread with ") +
+                                                      threadOptions(stage) +
+                                                      ", or which place with --at LINE --print NAMES");
   }
   if (options.at.empty() && !(options.print.empty() && options.image.empty() && options.iteration.empty())) {
     throw session::Error(session::Outcome::usage, "--print, --image and --iteration go with --at LINE");
@@ -37,6 +68,32 @@ int run(const Common& common, const DebugOptions& options) {
 
 }  // namespace
 
+std::optional<std::vector<std::int32_t>> chosenThread(session::Stage stage, const DebugOptions& options) {
+  using session::Stage;
+  const bool patches = stage == Stage::tess_control || stage == Stage::tess_eval;
+  requireFitting(stage, !options.pixel.empty(), stage == Stage::fragment, "--pixel");
+  requireFitting(stage, options.vertex >= 0, stage == Stage::vertex || stage == Stage::tess_control,
+                 "--vertex");
+  requireFitting(stage, options.instance >= 0, stage == Stage::vertex, "--instance");
+  requireFitting(stage, options.primitive >= 0, patches || stage == Stage::geometry, "--primitive");
+  requireFitting(stage, !options.invocation.empty(), stage == Stage::geometry || stage == Stage::compute,
+                 "--invocation");
+  if (stage == Stage::vertex && options.vertex >= 0)
+    return std::vector<std::int32_t>{options.vertex, std::max(options.instance, 0)};
+  if (stage == Stage::tess_control && options.primitive >= 0)
+    return std::vector<std::int32_t>{options.primitive, std::max(options.vertex, 0)};
+  if (stage == Stage::compute && !options.invocation.empty())
+    return parseIntegers(options.invocation, "--invocation", 1, 3);
+  if (stage == Stage::geometry && options.primitive >= 0) {
+    const int invocation =
+        options.invocation.empty() ? 0 : parseIntegers(options.invocation, "--invocation", 1, 1)[0];
+    return std::vector<std::int32_t>{options.primitive, invocation};
+  }
+  if (stage == Stage::tess_eval && options.primitive >= 0)
+    return std::vector<std::int32_t>{options.primitive};
+  return std::nullopt;
+}
+
 void addDebug(CLI::App& app, Common& common, Action& action) {
   CLI::App* command =
       app.add_subcommand("debug", "one thread's whole run, or the values at a place for all threads");
@@ -49,6 +106,21 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
       ->add_option("--hit", options->hit,
                    "which fragment, if the draw has several on the pixel; default the visible one")
       ->type_name("N");
+  command
+      ->add_option("--vertex", options->vertex,
+                   "with --stage vertex: gl_VertexID; tess-control: gl_InvocationID")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--instance", options->instance, "with --vertex: gl_InstanceID; default 0")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--primitive", options->primitive, "with --stage geometry, tess-control, tess-eval")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--invocation", options->invocation,
+                   "with --stage compute: gl_GlobalInvocationID; geometry: gl_InvocationID")
+      ->type_name("X,Y,Z");
   command->add_option("--at", options->at, "a place in the source: before the statement there")
       ->type_name("LINE[:COL]");
   command->add_flag("--after", options->after,

@@ -1,6 +1,7 @@
 // What the two forms of `shadestep debug` share: one thread's whole run, or one place for all threads.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ namespace shadestep::cli {
 struct DebugOptions {
   std::string pixel;
   int hit = -1;
+  int vertex = -1, instance = -1, primitive = -1;
+  std::string invocation;
   std::string at;
   std::string iteration;
   std::string call;
@@ -26,7 +29,11 @@ struct DebugOptions {
   FragmentOptions fragments;
 };
 
-// The whole run of the thread on --pixel.
+// The thread that the options name by its identity, as the selected stage tells its threads apart; nothing if
+// they name none. Throws usage for options of another stage.
+std::optional<std::vector<std::int32_t>> chosenThread(session::Stage, const DebugOptions&);
+
+// The whole run of the thread on --pixel, or, of other stages, of the one chosen.
 int debugThread(session::Session&, const Common&, const DebugOptions&);
 // Values at --at over all threads.
 int debugValues(session::Session&, const Common&, const DebugOptions&);

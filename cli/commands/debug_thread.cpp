@@ -93,12 +93,19 @@ std::string asText(const Shader& shader, const session::DrawStop& stop, const se
   std::ostringstream text;
   const std::string forced = describe(fragments);
   if (!forced.empty()) text << forced << "\n";
-  text << "pixel " << run.x << "," << run.y << "  fragment shader of program " << facts.program << "  frame "
-       << stop.frame << ", draw " << stop.draw << " (" << stop.call << ")\n"
+  std::string who =
+      run.identity.empty() ? "pixel " + std::to_string(run.x) + "," + std::to_string(run.y) : "";
+  for (const session::NamedValue& one : run.identity)
+    who += (who.empty() ? "" : ", ") + one.name + " " + session::formatValue(one.value);
+  text << who << "  " << session::stageName(shader.stage) << " shader of program " << facts.program
+       << "  frame " << stop.frame << ", draw " << stop.draw << " (" << stop.call << ")\n"
        << facts.renderer << "  GLSL " << shader.version << "\n"
        << withThousands(run.steps.size()) << " steps, " << summary(run, facts.samples) << "\n"
-       << describe(run.check) << "\n\n"
-       << "  step  line  iteration  " << padded("source", 56) << "  what changed\n";
+       << describe(run.check) << "\n\n";
+  for (const session::NamedValue& input : run.inputs)
+    text << "input " << input.name << " = " << session::formatValue(input.value) << "\n";
+  if (!run.inputs.empty()) text << "\n";
+  text << "  step  line  iteration  " << padded("source", 56) << "  what changed\n";
   std::size_t number = 0;
   for (const Step& step : run.steps) {
     const std::string indent(static_cast<std::size_t>(step.depth) * 2, ' ');
@@ -135,6 +142,13 @@ Json choicesAsJson(const Step& step) {
   return choices;
 }
 
+Json valuesAsJson(const std::vector<session::NamedValue>& values) {
+  Json json = Json::object();
+  for (const session::NamedValue& value : values)
+    json[value.name] = {{"type", glslName(value.value.type)}, {"value", toJson(value.value)}};
+  return json;
+}
+
 Json asJson(const Shader& shader, const ThreadRun& run) {
   Json document;
   document["thread"] = {{"stage", "fragment"},
@@ -144,6 +158,11 @@ Json asJson(const Shader& shader, const ThreadRun& run) {
                         {"hits", run.hits},
                         {"visible", run.visible},
                         {"visible_hit", run.visible_hit < 0 ? Json(nullptr) : Json(run.visible_hit)}};
+  if (!run.identity.empty()) {
+    document["thread"] = {{"stage", session::stageName(shader.stage)}};
+    for (const session::NamedValue& one : run.identity) document["thread"][one.name] = toJson(one.value);
+    document["inputs"] = valuesAsJson(run.inputs);
+  }
   Json steps = Json::array();
   for (const Step& step : run.steps) {
     Json one;
@@ -154,11 +173,7 @@ Json asJson(const Shader& shader, const ThreadRun& run) {
     one["depth"] = step.depth;
     one["iteration"] = step.iteration;
     if (!step.outcome.empty()) one["outcome"] = step.outcome;
-    Json changed = Json::object();
-    for (const session::NamedValue& value : step.changed) {
-      changed[value.name] = {{"type", glslName(value.value.type)}, {"value", toJson(value.value)}};
-    }
-    one["changed"] = std::move(changed);
+    one["changed"] = valuesAsJson(step.changed);
     if (!step.choices.empty()) one["choices"] = choicesAsJson(step);
     if (step.call != frontend::kNone) {
       const frontend::Place place = callOf(shader, step);
@@ -198,7 +213,11 @@ std::string asCsv(const ThreadRun& run) {
   return csv;
 }
 
-ThreadRun follow(session::Session& session, const DebugOptions& options, int x, int y) {
+ThreadRun follow(session::Session& session, const DebugOptions& options) {
+  if (session.stage() != session::Stage::fragment)
+    return session::followThread(session, chosenThread(session.stage(), options).value());
+  const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
+  const int x = pixel[0], y = pixel[1];
   const session::Plan plan = session::planByName(options.plan).value_or(session::Plan::automatic);
   if (plan == session::Plan::window || (plan == session::Plan::single && options.hit >= 0)) {
     throw session::Error(
@@ -213,16 +232,14 @@ ThreadRun follow(session::Session& session, const DebugOptions& options, int x, 
 }  // namespace
 
 int debugThread(session::Session& session, const Common& common, const DebugOptions& options) {
-  const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
-  const ThreadRun run = follow(session, options, pixel[0], pixel[1]);
+  const ThreadRun run = follow(session, options);
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(run));
   if (common.json) {
-    Json document = asJson(session.shader(session::Stage::fragment), run);
+    Json document = asJson(session.shader(), run);
     document["fragments"] = toJson(options.fragments);
     print(document);
   } else {
-    std::cout << asText(session.shader(session::Stage::fragment), session.stop(), session.facts(),
-                        options.fragments, run);
+    std::cout << asText(session.shader(), session.stop(), session.facts(), options.fragments, run);
   }
   return run.check.compared_at_all && !run.check.identical() ? static_cast<int>(session::Outcome::failed) : 0;
 }

@@ -37,7 +37,36 @@ session::PlaceSelection placeOf(const DebugOptions& options) {
   return place;
 }
 
-Json asJson(const ThreadValues& threads, const std::optional<std::size_t>& pixel) {
+// The one thread that was named beside the place.
+struct Picked {
+  std::size_t number = 0;
+  std::string key;   // in JSON
+  std::string name;  // for a person
+};
+
+std::string identityText(const ThreadValues& threads, std::size_t thread) {
+  std::string text;
+  for (const WatchedValues& one : threads.identity)
+    text += (text.empty() ? "" : ", ") + one.name + " " + session::formatValue(one.valueAt(thread));
+  return text;
+}
+
+std::optional<Picked> pickedBy(session::Session& session, const ThreadValues& threads,
+                               const DebugOptions& options) {
+  if (!options.pixel.empty())
+    return Picked{pixelIndex(session, options.pixel), "at_pixel", "pixel " + options.pixel};
+  const auto wanted = chosenThread(session.stage(), options);
+  if (!wanted) return std::nullopt;
+  const auto found = threads.find(*wanted);
+  if (!found) {
+    throw session::Error(session::Outcome::nothing_matches,
+                         "the draw runs no such thread; there are " + withThousands(threads.launched) +
+                             ", the last of them " + identityText(threads, threads.marks.size() - 1));
+  }
+  return Picked{*found, "at_thread", identityText(threads, *found)};
+}
+
+Json asJson(const ThreadValues& threads, const std::optional<Picked>& picked) {
   Json document;
   document["threads"] = {
       {"launched", threads.launched}, {"reached", threads.reached}, {"discarded", threads.discarded}};
@@ -70,7 +99,10 @@ Json asJson(const ThreadValues& threads, const std::optional<std::size_t>& pixel
     }
     one["nan"] = nan;
     one["inf"] = inf;
-    if (pixel) one["at_pixel"] = threads.reachedAt(*pixel) ? toJson(watched.valueAt(*pixel)) : Json(nullptr);
+    if (picked) {
+      const std::size_t thread = picked->number;
+      one[picked->key] = threads.reachedAt(thread) ? toJson(watched.valueAt(thread)) : Json(nullptr);
+    }
     values[watched.name] = std::move(one);
   }
   document["values"] = std::move(values);
@@ -79,7 +111,7 @@ Json asJson(const ThreadValues& threads, const std::optional<std::size_t>& pixel
 }
 
 void printText(const ThreadValues& threads, const DebugOptions& options,
-               const std::optional<std::size_t>& pixel) {
+               const std::optional<Picked>& picked) {
   const std::string forced = describe(options.fragments);
   if (!forced.empty()) std::cout << forced << "\n";
   std::cout << (options.after ? "after" : "before") << " line " << options.at;
@@ -107,10 +139,10 @@ void printText(const ThreadValues& threads, const DebugOptions& options,
       if (component.inf > 0) std::cout << "  infinite in " << withThousands(component.inf) << " threads";
       std::cout << "\n";
     }
-    if (pixel) {
-      std::cout << "  at pixel " << options.pixel << ": "
-                << (threads.reachedAt(*pixel) ? session::formatValue(watched.valueAt(*pixel))
-                                              : "does not get there")
+    if (picked) {
+      std::cout << "  at " << picked->name << ": "
+                << (threads.reachedAt(picked->number) ? session::formatValue(watched.valueAt(picked->number))
+                                                      : "does not get there")
                 << "\n";
     }
   }
@@ -169,7 +201,7 @@ ThreadValues look(session::Session& session, const session::PlaceSelection& plac
                   const DebugOptions& options) {
   session::Plan plan = session::planByName(options.plan).value_or(session::Plan::automatic);
   if (plan == session::Plan::automatic) plan = session::Plan::single;
-  const frontend::Shader& shader = session.shader(session::Stage::fragment);
+  const frontend::Shader& shader = session.shader();
   instrumenter::Probe probe = session::probeAt(shader, place);
   probe.watches = session::watchesAt(shader, probe, splitList(options.print));
   return session::makePlan(session, plan)->valuesAt(probe);
@@ -179,9 +211,10 @@ ThreadValues look(session::Session& session, const session::PlaceSelection& plac
 
 int debugValues(session::Session& session, const Common& common, const DebugOptions& options) {
   const session::PlaceSelection place = placeOf(options);
-  std::optional<std::size_t> pixel;
-  if (!options.pixel.empty()) pixel = pixelIndex(session, options.pixel);
-
+  if (session.stage() != session::Stage::fragment && !options.image.empty())
+    throw session::Error(session::Outcome::usage,
+                         "--image shows fragments, which have a place; take --csv F");
+  if (!options.pixel.empty()) pixelIndex(session, options.pixel);  // throws before the work begins
   const ThreadValues threads = look(session, place, options);
   if (threads.reached == 0) {
     throw session::Error(session::Outcome::nothing_matches,
@@ -190,16 +223,17 @@ int debugValues(session::Session& session, const Common& common, const DebugOpti
                              (options.iteration.empty() ? "" : " in iteration " + options.iteration) +
                              "; 'shadestep loops' says how many iterations there are");
   }
+  const std::optional<Picked> picked = pickedBy(session, threads, options);
   if (!options.image.empty()) {
     for (const std::string& file : splitList(options.image)) writeImage(common.inOut(file), threads, options);
   }
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), session::asCsv(threads));
   if (common.json) {
-    Json document = asJson(threads, pixel);
+    Json document = asJson(threads, picked);
     document["fragments"] = toJson(options.fragments);
     print(document);
   } else {
-    printText(threads, options, pixel);
+    printText(threads, options, picked);
   }
   return threads.check.compared_at_all && !threads.check.identical()
              ? static_cast<int>(session::Outcome::failed)

@@ -41,9 +41,8 @@ std::size_t linesOf(const std::vector<frontend::ShaderStrings>& objects) {
 // Why this stage cannot be debugged; empty if it can.
 std::string reasonAgainst(session::Session& session, const session::StageFacts& stage) {
   if (!stage.reason.empty()) return stage.reason;
-  if (stage.stage != session::Stage::fragment) return "this version of shadestep runs fragment shaders only";
   try {
-    session.shader(stage.stage);
+    session.select(stage.stage);
     session.requireCapturable();
   } catch (const session::Error& error) {
     return error.what();

@@ -148,6 +148,7 @@ void printText(const LoopsReport& report) {
 }
 
 int run(const Common& common, const Options& options) {
+  requireFragmentStage(common, "loops");
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   choose(session, options.fragments);

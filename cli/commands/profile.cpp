@@ -179,6 +179,7 @@ profiler::ProfileFiles filesIn(const Common& common) {
 }
 
 int run(const Common& common, const Options& options) {
+  requireFragmentStage(common, "profile");
   profiler::ProfileOptions how = profileOptions(options);
   std::optional<profiler::Earlier> earlier;
   if (!options.compare.empty()) earlier = profiler::readEarlier(options.compare);

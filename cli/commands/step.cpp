@@ -337,6 +337,7 @@ void converse(Dialogue& dialogue, bool json) {
 }
 
 int run(const Common& common, const Options& options) {
+  requireFragmentStage(common, "step");
   const std::optional<session::Plan> plan = session::planByName(options.plan);
   session::Session session(common.launchOptions());
   runToSelection(session, common);

@@ -8,7 +8,9 @@ namespace shadestep::instrumenter::helpers {
 extern const char* const k_attachment_halves;
 extern const char* const k_es_words;
 extern const char* const k_recording_declarations;
+extern const char* const k_recording_fragment;
 extern const char* const k_recording_functions;
+extern const char* const k_recording_thread;
 extern const char* const k_switch_selector;
 
 }  // namespace shadestep::instrumenter::helpers

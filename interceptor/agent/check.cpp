@@ -10,46 +10,71 @@ namespace {
 using guard::Refusal;
 using guard::Section;
 
-std::vector<Section> allSections(const capture::Shadow& shadow, const guard::WritableMemory& memory) {
-  std::vector<Section> sections = shadow.sections();
-  for (Section& section : memory.sections()) sections.push_back(std::move(section));
-  return sections;
-}
-
 bool any(const std::vector<std::uint64_t>& counts) {
   return std::any_of(counts.begin(), counts.end(), [](std::uint64_t count) { return count != 0; });
 }
 
-}  // namespace
-
-// The guard of pixel reads lives here and not around compare(): what it sets may change what a draw draws.
-Refusal Check::read(capture::Shadow& shadow, const guard::WritableMemory& memory,
-                    wire::SharedMemory& into) const {
-  const std::size_t bytes = guard::totalBytes(allSections(shadow, memory));
-  into = wire::SharedMemory::create("shadestep-outputs", std::max<std::size_t>(bytes, 1));
+Refusal readInto(Traces& traces, wire::SharedMemory& into) {
+  into = wire::SharedMemory::create("shadestep-outputs",
+                                    std::max<std::size_t>(guard::totalBytes(traces.sections()), 1));
   if (!into) return guard::limit("there is not enough shared memory to compare what two draws leave");
-  const guard::PixelReadGuard reading(facts_);
-  shadow.readOriginals(into.data());
-  return memory.read(into.data() + guard::totalBytes(shadow.sections()));
+  return traces.read(into.data());
 }
 
-Refusal Check::keepReference(capture::Shadow& shadow, const guard::WritableMemory& memory) {
-  Refusal refusal = read(shadow, memory, reference_);
+void append(std::vector<Section>& sections, std::vector<Section> more) {
+  for (Section& section : more) sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+std::vector<Section> DrawTraces::sections() const {
+  std::vector<Section> sections = shadow_.sections();
+  append(sections, memory_.sections());
+  return sections;
+}
+
+Refusal DrawTraces::read(std::byte* destination) {
+  const guard::PixelReadGuard reading(facts_);
+  shadow_.readOriginals(destination);
+  return memory_.read(destination + guard::totalBytes(shadow_.sections()));
+}
+
+std::vector<Section> StageTraces::sections() const {
+  std::vector<Section> sections;
+  const std::uint64_t words = feedback_.records() * static_cast<std::uint64_t>(feedback_.outputWords());
+  if (words > 0) sections.push_back({"the outputs of the " + stage_ + " stage", words * 4, 4, words});
+  append(sections, memory_.sections());
+  return sections;
+}
+
+Refusal StageTraces::read(std::byte* destination) {
+  feedback_.readOutputs(destination);
+  const std::size_t words = feedback_.records() * static_cast<std::size_t>(feedback_.outputWords());
+  const guard::PixelReadGuard reading(facts_);
+  return memory_.read(destination + words * 4);
+}
+
+Refusal Check::keepReference(Traces& traces) {
+  Refusal refusal = readInto(traces, reference_);
   if (!refusal.text.empty()) dropReference();
   return refusal;
 }
 
-Refusal Check::compare(capture::Shadow& shadow, const guard::WritableMemory& memory, const Draw& again,
-                       wire::ExecutedT& executed) const {
-  const std::vector<Section> sections = allSections(shadow, memory);
+Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& executed) const {
+  const std::vector<Section> sections = traces.sections();
   wire::SharedMemory drawn;
-  if (Refusal refusal = read(shadow, memory, drawn); !refusal.text.empty()) return refusal;
+  if (Refusal refusal = readInto(traces, drawn); !refusal.text.empty()) return refusal;
+  if (drawn.size() != reference_.size()) {
+    executed.compare_reason =
+        "two replays of the draw differ in what they leave behind: its inputs are not the same";
+    return {};
+  }
   const std::vector<std::uint64_t> differing = guard::differences(sections, reference_.data(), drawn.data());
   std::vector<std::uint64_t> unstable(sections.size(), 0);
   if (any(differing)) {
     if (Refusal refusal = again(); !refusal.text.empty()) return refusal;
     wire::SharedMemory second;
-    if (Refusal refusal = read(shadow, memory, second); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = readInto(traces, second); !refusal.text.empty()) return refusal;
     unstable = guard::differences(sections, reference_.data(), second.data());
   }
 
@@ -70,7 +95,7 @@ Refusal Check::compare(capture::Shadow& shadow, const guard::WritableMemory& mem
                               ": an open order of writes, a clock or uninitialised variables; the other " +
                               std::to_string(executed.compared) + " components are identical";
   } else if (sections.empty()) {
-    executed.compare_reason = "the draw writes to no buffer";
+    executed.compare_reason = "it writes nothing that could be compared";
   }
   return {};
 }

@@ -1,13 +1,15 @@
-// The check of every instrumented replay: what it leaves behind (colour, depth, stencil, and the memory that
-// shaders can write) against what the program's own program leaves, bit for bit. Where the two differ, the
-// program's own draw is made once more: a buffer in which it differs from itself proves nothing.
-// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
-// dispatch::gl().
+// The check of every instrumented replay: what it leaves behind (colour, depth, stencil, or the outputs of an
+// earlier stage, and the memory that shaders can write) against what the program's own program leaves, bit
+// for bit. Where the two differ, the program's own draw is made once more: a buffer in which it differs from
+// itself proves nothing. Runs inside the program under debug: throws nothing, starts no thread, calls GL only
+// through dispatch::gl().
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "interceptor/capture/feedback.h"
 #include "interceptor/capture/shadow.h"
 #include "interceptor/guard/context_facts.h"
 #include "interceptor/guard/memory.h"
@@ -18,26 +20,62 @@
 
 namespace shadestep::agent {
 
+// What a replay leaves behind, as it can be read now.
+class Traces {
+ public:
+  virtual std::vector<guard::Section> sections() const = 0;
+  virtual guard::Refusal read(std::byte*) = 0;
+
+ protected:
+  ~Traces() = default;
+};
+
+// Of a draw: the buffers of its target and memory. The guard of pixel reads lives in `read` and not around
+// the comparison: what it sets may change what a draw draws.
+class DrawTraces final : public Traces {
+ public:
+  DrawTraces(const guard::ContextFacts& facts, capture::Shadow& shadow, const guard::WritableMemory& memory)
+      : facts_(facts), shadow_(shadow), memory_(memory) {}
+  std::vector<guard::Section> sections() const override;
+  guard::Refusal read(std::byte*) override;
+
+ private:
+  const guard::ContextFacts& facts_;
+  capture::Shadow& shadow_;
+  const guard::WritableMemory& memory_;
+};
+
+// Of stages before rasterization, or of a dispatch: the original outputs, by transform feedback, and memory.
+class StageTraces final : public Traces {
+ public:
+  StageTraces(const guard::ContextFacts& facts, const capture::Feedback& feedback,
+              const guard::WritableMemory& memory, const std::string& stage)
+      : facts_(facts), feedback_(feedback), memory_(memory), stage_(stage) {}
+  std::vector<guard::Section> sections() const override;
+  guard::Refusal read(std::byte*) override;
+
+ private:
+  const guard::ContextFacts& facts_;
+  const capture::Feedback& feedback_;
+  const guard::WritableMemory& memory_;
+  std::string stage_;  // "vertex"
+};
+
 class Check {
  public:
-  // Draws what the program draws, into the shadow.
-  using Draw = std::function<guard::Refusal()>;
+  // Replays what the program does, and leaves its traces.
+  using Again = std::function<guard::Refusal()>;
 
-  explicit Check(const guard::ContextFacts& facts) : facts_(facts) {}
-  // Keeps what such a draw has just left.
-  guard::Refusal keepReference(capture::Shadow&, const guard::WritableMemory&);
+  // Keeps what such a replay has just left.
+  guard::Refusal keepReference(Traces&);
   bool hasReference() const { return static_cast<bool>(reference_); }
   void dropReference() { reference_ = {}; }
 
   // Compares what lies there now, and fills the answer's fields about it. After `again` was called, what the
   // instrumented replay left is gone.
-  guard::Refusal compare(capture::Shadow&, const guard::WritableMemory&, const Draw& again,
-                         wire::ExecutedT&) const;
+  guard::Refusal compare(Traces&, const Again& again, wire::ExecutedT&) const;
 
  private:
-  guard::Refusal read(capture::Shadow&, const guard::WritableMemory&, wire::SharedMemory& into) const;
-
-  const guard::ContextFacts& facts_;
   wire::SharedMemory reference_;
 };
 

@@ -3,11 +3,13 @@
 #include "interceptor/agent/describe.h"
 
 #include <array>
+#include <string_view>
 
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/guard/guards.h"
+#include "interceptor/replay/stages.h"
 #include "interceptor/replay/uniforms.h"
 
 namespace shadestep::agent {
@@ -28,7 +30,7 @@ std::string text(GLenum name) {
 
 // Why there is no program to debug, or "".
 std::string programReason(const DrawFacts& facts) {
-  if (facts.program == 0 && facts.pipeline != 0) return "the draw's program pipeline has no fragment shader";
+  if (facts.program == 0 && facts.pipeline != 0) return "the draw's program pipeline has no shaders";
   if (facts.program == 0) return "the draw uses no GLSL program (fixed function or assembly programs)";
   GLint deleted = GL_FALSE;
   gl().GetProgramiv(facts.program, GL_DELETE_STATUS, &deleted);
@@ -94,15 +96,25 @@ std::string replayReason(const calls::DrawCall& call, const guard::ContextFacts&
     if (integer(GL_RENDER_MODE) != GL_RENDER)
       return "the draw is made for selection or feedback and writes no pixels";
   }
-  if (facts.atLeast(30, 30) && gl().IsEnabled(GL_RASTERIZER_DISCARD)) {
-    return "rasterization is switched off (GL_RASTERIZER_DISCARD): no fragment shader runs";
-  }
   if (calls::conditionalRenderActive())
     return "the draw is made under a condition (glBeginConditionalRender), which cannot be replayed yet";
   if (queryActive(facts)) return "a query that counts what is drawn is active, which a replay would change";
   if (feedbackUnpausable(facts))
     return "transform feedback buffers are bound, and this driver cannot pause the feedback";
   return "";
+}
+
+// Components of a vertex that a replay can capture by transform feedback: none where that would count into a
+// query of the program, or where nobody knows what primitives the call draws.
+int feedbackComponents(const calls::DrawCall& call, const guard::ContextFacts& facts) {
+  if (!facts.transformFeedback() || call.mode == calls::kNoMode) return 0;
+  GLint counting = 0;
+  gl().GetQueryiv(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, GL_CURRENT_QUERY, &counting);
+  return counting != 0 ? 0 : integer(GL_MAX_TRANSFORM_FEEDBACK_INTERLEAVED_COMPONENTS);
+}
+
+bool isDispatch(const calls::DrawCall& call) {
+  return std::string_view(call.name).starts_with("glDispatchCompute");
 }
 
 wire::Provider provider() {
@@ -177,16 +189,33 @@ DrawFacts drawFacts(const calls::DrawCall& call) {
   }
   if (facts.pipeline != 0) {
     facts.stages = replay::pipelineStages(facts.pipeline);
+    std::erase_if(facts.stages, [&](const replay::StageProgram& stage) {
+      return (stage.stage == GL_COMPUTE_SHADER) != isDispatch(call);
+    });
     for (const replay::StageProgram& stage : facts.stages) {
-      if (stage.stage == GL_FRAGMENT_SHADER) facts.program = stage.program;
+      if (facts.program == 0 || stage.stage == GL_FRAGMENT_SHADER) facts.program = stage.program;
     }
   }
   facts.linked = calls::linkedProgram(facts.program);
   facts.program_reason = programReason(facts);
   facts.target = capture::drawTarget(context);
-  if (facts.target.reason.empty()) facts.target.reason = replayReason(call, context);
+  facts.replay_reason = replayReason(call, context);
+  if (facts.target.reason.empty()) facts.target.reason = facts.replay_reason;
+  if (facts.target.reason.empty() && context.atLeast(30, 30) && gl().IsEnabled(GL_RASTERIZER_DISCARD)) {
+    facts.target.reason = "rasterization is switched off (GL_RASTERIZER_DISCARD): no fragment shader runs";
+  }
+  facts.feedback_components = feedbackComponents(call, context);
+  facts.draws_points = call.takes_mode;
   guard::clearErrors();
   return facts;
+}
+
+replay::Original originalOf(const DrawFacts& facts, wire::Stage wanted) {
+  for (const replay::StageProgram& one : facts.stages) {
+    if (one.stage == replay::shaderType(wanted) && one.program != facts.program)
+      return {one.program, facts.stages, calls::linkedProgram(one.program), facts.target};
+  }
+  return {facts.program, facts.stages, facts.linked, facts.target};
 }
 
 wire::DrawT describe(const DrawFacts& facts) {
@@ -214,7 +243,11 @@ wire::DrawT describe(const DrawFacts& facts) {
   draw.height = facts.target.height;
   draw.draw_buffers = facts.target.draw_buffers;
   draw.max_draw_buffers = context.max_draw_buffers;
-  draw.max_storage_blocks = context.max_storage_blocks;
+  draw.storage_blocks.assign(context.storage_blocks.begin(), context.storage_blocks.end());
+  draw.max_storage_blocks = context.storage_blocks[static_cast<std::size_t>(wire::Stage::Fragment)];
+  draw.replay_reason = facts.replay_reason;
+  draw.feedback_components = facts.feedback_components;
+  draw.draws_points = facts.draws_points;
   draw.layers = facts.target.layers;
   draw.samples = facts.target.samples;
   if (facts.program != 0) draw.uniforms = replay::activeUniforms(facts.program);

@@ -2,11 +2,10 @@
 // dispatch::gl().
 #include "interceptor/agent/stop.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <set>
 
+#include "interceptor/agent/executed.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/state_digest.h"
 #include "interceptor/replay/writable.h"
@@ -22,50 +21,6 @@ template <class Body>
 Reply replied(OrRefusal<Body>&& result) {
   if (const auto* refusal = std::get_if<Refusal>(&result)) return failed(*refusal);
   return success(std::get<Body>(std::move(result)));
-}
-
-std::uint64_t now(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
-}
-
-// Draws and notes how long that took, on the wall and in CPU time of the whole program: nothing is in flight
-// before it, all is done after it.
-template <class Draw>
-void timed(wire::ExecutedT& executed, Draw draw) {
-  gl().Finish();
-  const std::uint64_t wall = now(CLOCK_MONOTONIC);
-  const std::uint64_t cpu = now(CLOCK_PROCESS_CPUTIME_ID);
-  draw();
-  gl().Finish();
-  executed.cpu_ns.push_back(now(CLOCK_PROCESS_CPUTIME_ID) - cpu);
-  executed.times_ns.push_back(now(CLOCK_MONOTONIC) - wall);
-}
-
-// Hands out ranges of the memory that travels beside Executed; aligned for any word.
-class BulkLayout {
- public:
-  std::unique_ptr<wire::BulkRangeT> add(std::uint64_t bytes) {
-    auto range = std::make_unique<wire::BulkRangeT>();
-    range->offset = total_;
-    range->bytes = bytes;
-    total_ += (bytes + 63) / 64 * 64;
-    return range;
-  }
-  // False: there is no memory for it.
-  bool create(wire::SharedMemory& memory) const {
-    if (total_ == 0) return true;
-    memory = wire::SharedMemory::create("shadestep-values", total_);
-    return static_cast<bool>(memory);
-  }
-
- private:
-  std::uint64_t total_ = 0;
-};
-
-Refusal noMemory() {
-  return guard::limit("there is not enough shared memory for the captured values");
 }
 
 std::uint64_t pixelBytes(int width, int height) {
@@ -98,17 +53,6 @@ std::vector<int> locations(const std::vector<capture::CaptureBuffer>& captures) 
   std::vector<int> result;
   for (const capture::CaptureBuffer& buffer : captures) result.push_back(buffer.location);
   return result;
-}
-
-Refusal useProgram(const replay::ProgramCopy& copy, const wire::ExecuteT& request) {
-  gl().UseProgram(copy.program);
-  const std::string problem = replay::setUniforms(copy.program, request.uniforms);
-  if (copy.pipeline != 0) {
-    gl().UseProgram(0);
-    gl().BindProgramPipeline(copy.pipeline);
-  }
-  replay::selectSubroutines(copy.subroutines);
-  return problem.empty() ? Refusal{} : guard::unsupported(problem);
 }
 
 }  // namespace
@@ -173,12 +117,14 @@ OrRefusal<wire::StateT> Stop::describeState() {
 // -------------------------------------------------------------------------------------------------
 
 OrRefusal<wire::PreparedT> Stop::prepare(const wire::PrepareT& request) {
+  const bool unrasterized = request.geometry == wire::Geometry::Unrasterized;
   if (!facts().program_reason.empty()) return guard::unsupported(facts().program_reason);
   if (request.geometry == wire::Geometry::Replay && !facts().target.reason.empty()) {
     return guard::unsupported(facts().target.reason);
   }
+  if (unrasterized && !facts().replay_reason.empty()) return guard::unsupported(facts().replay_reason);
   const guard::ProgramGuard program(facts().context);
-  const replay::Original original{facts().program, facts().stages, *facts().linked, facts().target};
+  const replay::Original original = originalOf(facts(), request.stage);
   auto result = replay::copyProgram(facts().context, original, request, shaders_);
   if (const auto* refusal = std::get_if<Refusal>(&result)) return *refusal;
   auto copy = std::get<std::unique_ptr<replay::ProgramCopy>>(std::move(result));
@@ -210,6 +156,10 @@ OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::Sh
   if (wants_storage) storage.emplace(std::max(copy.storage_binding, 0));
   if (Refusal refusal = saveMemory(copy); !refusal.text.empty()) return refusal;
   const guard::MemoryGuard memory(*memory_);
+  if (copy.stages) {
+    if (!stages_) stages_.emplace(call_, facts(), *memory_, storage_, shaders_);
+    return stages_->execute(copy, program, request, bulk);
+  }
   return copy.covering ? cover(copy, request, bulk) : replay(copy, program, framebuffers, request, bulk);
 }
 
@@ -224,11 +174,12 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const g
   const guard::FragmentTestsGuard tests(context, request.raster.get());
   if (shadow_ == nullptr) shadow_ = std::make_unique<capture::Shadow>(context, target);
   setRaster(request.raster.get());
+  DrawTraces traces(context, *shadow_, *memory_);
   const auto keep_reference = [&]() -> Refusal {
-    if (!request.compare || check_->hasReference()) return {};
+    if (!request.compare || check_.hasReference()) return {};
     program.makeCurrent();
     if (Refusal refusal = drawOriginal(framebuffers); !refusal.text.empty()) return refusal;
-    return check_->keepReference(*shadow_, *memory_);
+    return check_.keepReference(traces);
   };
   if (Refusal refusal = keep_reference(); !refusal.text.empty()) return refusal;
 
@@ -239,13 +190,13 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const g
   const std::vector<capture::CaptureBuffer> none;
   {
     const guard::CaptureBufferGuard plain(context, twice ? std::vector<int>() : locations(copy.captures));
-    if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
     for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
       if (Refusal refusal = prepareReplay(copy, framebuffers, request, twice ? none : copy.captures);
           !refusal.text.empty()) {
         return refusal;
       }
-      timed(executed, [&] { call_.replay(call_.arguments); });
+      timed(executed, [&] { call_.replay(call_.arguments, call_.mode); });
     }
     if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
   }
@@ -270,17 +221,16 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const g
       program.makeCurrent();
       return drawOriginal(framebuffers);
     };
-    if (Refusal refusal = check_->compare(*shadow_, *memory_, draw_again, executed); !refusal.text.empty())
-      return refusal;
+    if (Refusal refusal = check_.compare(traces, draw_again, executed); !refusal.text.empty()) return refusal;
   } else {
     executed.compare_reason = "not asked for";
   }
   if (twice) {
     const guard::PlainColorGuard plain(context);
-    if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
     if (Refusal refusal = prepareReplay(copy, framebuffers, request, copy.captures); !refusal.text.empty())
       return refusal;
-    call_.replay(call_.arguments);
+    call_.replay(call_.arguments, call_.mode);
     readCaptured(copy, request, executed, bulk);
   }
   if (guard::clearErrors()) return guard::internal("the driver refused to read the captured values back");
@@ -300,14 +250,14 @@ Refusal Stop::checkPlane(const wire::ExecuteT& request) {
 // What the program's own program draws under other tests, or from other contents, is another reference.
 void Stop::setRaster(const wire::RasterT* raster) {
   const wire::RasterT wanted = raster != nullptr ? *raster : wire::RasterT{};
-  if (!sameRaster(wanted, raster_)) check_->dropReference();
+  if (!sameRaster(wanted, raster_)) check_.dropReference();
   raster_ = wanted;
 }
 
 Refusal Stop::prepareReplay(const replay::ProgramCopy& copy, const guard::FramebufferGuard& framebuffers,
                             const wire::ExecuteT& request,
                             const std::vector<capture::CaptureBuffer>& captures) {
-  if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
+  if (Refusal refusal = resetStorage(storage_, copy, request); !refusal.text.empty()) return refusal;
   memory_->restore();
   return shadow_->fill(framebuffers, captures, start());
 }
@@ -359,8 +309,8 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
         !refusal.text.empty()) {
       return refusal;
     }
-    if (Refusal refusal = useProgram(copy, request); !refusal.text.empty()) return refusal;
-    if (Refusal refusal = resetStorage(copy, request); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
+    if (Refusal refusal = resetStorage(storage_, copy, request); !refusal.text.empty()) return refusal;
     const std::size_t sets = std::max<std::size_t>(request.sets.size(), 1);
     for (std::size_t i = 0; i < std::max(request.repeats, 1U) * sets; ++i) {
       if (!request.sets.empty()) {
@@ -395,7 +345,6 @@ Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
   const guard::ContextFacts& context = facts().context;
   if (!memory_) {
     memory_.emplace(context);
-    check_.emplace(context);
     std::set<GLuint> programs = {facts().program};
     for (const replay::StageProgram& stage : facts().stages) programs.insert(stage.program);
     for (const GLuint program : programs) {
@@ -407,7 +356,10 @@ Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
   if (copy.storage_binding >= 0) bindings.storage.erase(static_cast<GLuint>(copy.storage_binding));
   const std::size_t before = memory_->sections().size();
   Refusal refusal = memory_->save(bindings);
-  if (memory_->sections().size() != before) check_->dropReference();
+  if (memory_->sections().size() != before) {
+    check_.dropReference();
+    if (stages_) stages_->dropReferences();
+  }
   return refusal;
 }
 
@@ -415,19 +367,9 @@ Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
 Refusal Stop::drawOriginal(const guard::FramebufferGuard& framebuffers) {
   memory_->restore();
   if (Refusal refusal = shadow_->fill(framebuffers, {}, start()); !refusal.text.empty()) return refusal;
-  call_.replay(call_.arguments);
+  call_.replay(call_.arguments, call_.mode);
   if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
   return {};
-}
-
-Refusal Stop::resetStorage(const replay::ProgramCopy& copy, const wire::ExecuteT& request) {
-  if (request.storage_words == 0 && request.storage.empty()) {
-    storage_.release();
-    return {};
-  }
-  Refusal refusal = storage_.reset(request.storage, request.storage_words);
-  if (refusal.text.empty() && copy.storage_binding >= 0) storage_.bind(copy.storage_binding);
-  return refusal;
 }
 
 }  // namespace shadestep::agent

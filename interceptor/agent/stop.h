@@ -11,6 +11,7 @@
 #include "interceptor/agent/check.h"
 #include "interceptor/agent/describe.h"
 #include "interceptor/agent/reply.h"
+#include "interceptor/agent/stage_replay.h"
 #include "interceptor/capture/covering.h"
 #include "interceptor/capture/shadow.h"
 #include "interceptor/capture/storage.h"
@@ -52,7 +53,6 @@ class Stop {
                     wire::SharedMemory& bulk);
   guard::Refusal saveMemory(const replay::ProgramCopy&);
   guard::Refusal drawOriginal(const guard::FramebufferGuard&);
-  guard::Refusal resetStorage(const replay::ProgramCopy&, const wire::ExecuteT&);
   const DrawFacts& facts();
 
   const calls::DrawCall& call_;
@@ -60,11 +60,12 @@ class Stop {
   std::optional<DrawFacts> facts_;
   std::unique_ptr<capture::Shadow> shadow_;
   std::optional<guard::WritableMemory> memory_;
-  std::optional<Check> check_;
+  Check check_;
   wire::RasterT raster_;  // under which the reference was drawn
   capture::Covering covering_;
   capture::StorageBuffer storage_;
   replay::ShaderCache shaders_;
+  std::optional<StageReplay> stages_;
   std::map<std::uint32_t, std::unique_ptr<replay::ProgramCopy>> prepared_;
   std::uint32_t next_handle_ = 1;
 };

@@ -25,10 +25,11 @@ struct DrawCall {
   std::int64_t count;  // vertices or indices of one instance (of all sub-draws of a glMultiDraw*); -1: not
                        // known on the CPU (indirect, transform feedback, display list)
   std::int64_t instances;  // 1 if not instanced; -1: not known on the CPU
-  // Makes the same call again with the same arguments, straight to the driver: replay(arguments).
-  // Null: cannot be replayed by repeating the call; `reason` may say why.
-  void (*replay)(const void* arguments);
+  // Makes the same call again with the same arguments, straight to the driver: replay(arguments, mode), or,
+  // if it takes one, with another mode. Null: cannot be replayed by repeating the call; `reason` may say why.
+  void (*replay)(const void* arguments, std::uint32_t mode);
   const void* arguments;
+  bool takes_mode = false;  // replay does
   const char* reason = nullptr;
 };
 

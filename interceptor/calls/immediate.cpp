@@ -26,7 +26,7 @@ DrawCall told(GLenum mode) {
 // What glEnd leaves behind: the current values, and materials by glMaterial or colour tracking.
 constexpr GLbitfield kChanged = GL_CURRENT_BIT | GL_LIGHTING_BIT;
 
-void replayList(const void* arguments) {
+void replayList(const void* arguments, std::uint32_t) {
   gl().PushAttrib(kChanged);
   gl().CallList(*static_cast<const GLuint*>(arguments));
   gl().PopAttrib();

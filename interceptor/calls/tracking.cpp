@@ -39,6 +39,13 @@ std::unordered_map<std::uint64_t, ShareGroup>& groups() {
 // The context of this thread in which glBeginConditionalRender was called last; OpenGL cannot be asked.
 thread_local const dispatch::Context* conditional = nullptr;
 
+// The same of the last glBeginTransformFeedback.
+struct BegunFeedback {
+  const dispatch::Context* context = nullptr;
+  GLenum mode = GL_POINTS;
+};
+thread_local BegunFeedback begun_feedback;
+
 ShareGroup* currentGroup() {
   const dispatch::Context* context = dispatch::currentContext();
   return context != nullptr ? &groups()[context->share_group] : nullptr;
@@ -109,6 +116,10 @@ std::shared_ptr<const LinkedProgram> linkedProgram(GLuint program) {
 
 bool conditionalRenderActive() {
   return conditional != nullptr && conditional == dispatch::currentContext();
+}
+
+GLenum feedbackMode() {
+  return begun_feedback.context == dispatch::currentContext() ? begun_feedback.mode : GL_POINTS;
 }
 
 // ---- hooks
@@ -207,6 +218,10 @@ void after_glBeginConditionalRender(GLuint, GLenum) {
 }
 void after_glEndConditionalRender() {
   conditional = nullptr;
+}
+
+void after_glBeginTransformFeedback(GLenum mode) {
+  begun_feedback = {dispatch::currentContext(), mode};
 }
 
 void after_glProgramBinary(GLuint program, GLenum, const void*, GLsizei) {

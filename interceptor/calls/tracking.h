@@ -41,4 +41,7 @@ std::shared_ptr<const LinkedProgram> linkedProgram(GLuint program);
 // Whether the program draws under a condition (glBeginConditionalRender) that the driver may find false.
 bool conditionalRenderActive();
 
+// What the program's last glBeginTransformFeedback in the current context was given; OpenGL cannot be asked.
+GLenum feedbackMode();
+
 }  // namespace shadestep::calls

@@ -69,7 +69,12 @@ ContextFacts contextFacts() {
     facts.max_draw_buffers = std::min(integer(GL_MAX_DRAW_BUFFERS), integer(GL_MAX_COLOR_ATTACHMENTS));
   }
   if (facts.storageBuffers()) {
-    facts.max_storage_blocks = integer(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS);
+    facts.storage_blocks = {integer(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS),
+                            integer(GL_MAX_TESS_CONTROL_SHADER_STORAGE_BLOCKS),
+                            integer(GL_MAX_TESS_EVALUATION_SHADER_STORAGE_BLOCKS),
+                            integer(GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS),
+                            integer(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS),
+                            integer(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS)};
     facts.max_storage_bindings = integer(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS);
   }
   return facts;

@@ -3,6 +3,7 @@
 // dispatch::gl().
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,8 @@ struct ContextFacts {
   bool core = false;  // a core profile: no fixed function, no attribute stacks
   int major = 0, minor = 0;
   std::vector<std::string> extensions;
-  int max_draw_buffers = 1;    // what a framebuffer object can hold and a fragment shader can write
-  int max_storage_blocks = 0;  // of the fragment stage, 0 = none or not bindable by name
+  int max_draw_buffers = 1;             // what a framebuffer object can hold and a fragment shader can write
+  std::array<int, 6> storage_blocks{};  // of each wire::Stage; 0 = none or not bindable by name
   int max_storage_bindings = 0;
 
   // At least this version, as 10 * major + minor, for OpenGL and OpenGL ES; 0 = in no version of it.
@@ -36,6 +37,7 @@ struct ContextFacts {
   bool interfaceQueries() const { return atLeast(43, 31) || has("GL_ARB_program_interface_query"); }
   bool copiesImages() const { return atLeast(43, 32) || has("GL_ARB_copy_image"); }
   bool pausesTransformFeedback() const { return atLeast(40, 30) || has("GL_ARB_transform_feedback2"); }
+  bool transformFeedback() const { return atLeast(30, 32); }
   bool subroutines() const { return atLeast(40, 0) || has("GL_ARB_shader_subroutine"); }
   bool vertexArrays() const { return atLeast(30, 30) || has("GL_ARB_vertex_array_object"); }
   bool pixelBuffers() const { return atLeast(21, 30) || has("GL_ARB_pixel_buffer_object"); }

@@ -211,6 +211,35 @@ CaptureBufferGuard::~CaptureBufferGuard() {
 }
 
 // ---- buffers
+// ---- transform feedback
+// --------------------------------------------------------------------------------------
+
+FeedbackGuard::FeedbackGuard(const ContextFacts& facts)
+    : objects_(facts.pausesTransformFeedback()), discard_(GL_RASTERIZER_DISCARD) {
+  gl().GetIntegerv(GL_TRANSFORM_FEEDBACK_BUFFER_BINDING, &generic_);
+  if (objects_) {
+    gl().GetIntegerv(GL_TRANSFORM_FEEDBACK_BINDING, &object_);
+  } else {
+    gl().GetIntegeri_v(GL_TRANSFORM_FEEDBACK_BUFFER_BINDING, 0, &buffer_);
+    gl().GetInteger64i_v(GL_TRANSFORM_FEEDBACK_BUFFER_START, 0, &start_);
+    gl().GetInteger64i_v(GL_TRANSFORM_FEEDBACK_BUFFER_SIZE, 0, &size_);
+  }
+  discard_.enable();
+}
+
+FeedbackGuard::~FeedbackGuard() {
+  const auto buffer = static_cast<GLuint>(buffer_);
+  if (objects_) {
+    gl().BindTransformFeedback(GL_TRANSFORM_FEEDBACK, static_cast<GLuint>(object_));
+  } else if (size_ > 0) {
+    gl().BindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer, static_cast<GLintptr>(start_),
+                         static_cast<GLsizeiptr>(size_));
+  } else {
+    gl().BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
+  }
+  gl().BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLuint>(generic_));
+}
+
 // -------------------------------------------------------------------------------------------------
 
 StorageBindingGuard::StorageBindingGuard(int index)

@@ -103,6 +103,20 @@ class CaptureBufferGuard {
   std::vector<Saved> saved_;
 };
 
+// Where transform feedback goes, which is not active or paused, and rasterization, which is off while it
+// lives.
+class FeedbackGuard {
+ public:
+  explicit FeedbackGuard(const ContextFacts&);
+  ~FeedbackGuard();
+
+ private:
+  bool objects_;
+  CapabilityGuard discard_;
+  GLint object_ = 0, generic_ = 0, buffer_ = 0;
+  GLint64 start_ = 0, size_ = 0;
+};
+
 // The generic storage buffer binding and one indexed one.
 class StorageBindingGuard {
  public:

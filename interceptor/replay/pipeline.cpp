@@ -16,10 +16,12 @@ struct Stage {
   GLenum type;
   GLbitfield bit;
 };
-constexpr std::array kStages = {
-    Stage{GL_VERTEX_SHADER, GL_VERTEX_SHADER_BIT}, Stage{GL_TESS_CONTROL_SHADER, GL_TESS_CONTROL_SHADER_BIT},
-    Stage{GL_TESS_EVALUATION_SHADER, GL_TESS_EVALUATION_SHADER_BIT},
-    Stage{GL_GEOMETRY_SHADER, GL_GEOMETRY_SHADER_BIT}, Stage{GL_FRAGMENT_SHADER, GL_FRAGMENT_SHADER_BIT}};
+constexpr std::array kStages = {Stage{GL_VERTEX_SHADER, GL_VERTEX_SHADER_BIT},
+                                Stage{GL_TESS_CONTROL_SHADER, GL_TESS_CONTROL_SHADER_BIT},
+                                Stage{GL_TESS_EVALUATION_SHADER, GL_TESS_EVALUATION_SHADER_BIT},
+                                Stage{GL_GEOMETRY_SHADER, GL_GEOMETRY_SHADER_BIT},
+                                Stage{GL_FRAGMENT_SHADER, GL_FRAGMENT_SHADER_BIT},
+                                Stage{GL_COMPUTE_SHADER, GL_COMPUTE_SHADER_BIT}};
 
 }  // namespace
 

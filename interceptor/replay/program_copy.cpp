@@ -10,6 +10,7 @@
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/replay/outputs.h"
+#include "interceptor/replay/stages.h"
 #include "interceptor/replay/writable.h"
 
 namespace shadestep::replay {
@@ -23,23 +24,6 @@ std::uint64_t now() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
   return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
-}
-
-const char* stageWord(GLenum type) {
-  switch (type) {
-    case GL_VERTEX_SHADER:
-      return "vertex";
-    case GL_TESS_CONTROL_SHADER:
-      return "tessellation control";
-    case GL_TESS_EVALUATION_SHADER:
-      return "tessellation evaluation";
-    case GL_GEOMETRY_SHADER:
-      return "geometry";
-    case GL_FRAGMENT_SHADER:
-      return "fragment";
-    default:
-      return "compute";
-  }
 }
 
 std::string shaderLog(GLuint shader) {
@@ -98,7 +82,7 @@ struct OwnShader {
 // -------------------------------------------------------------
 
 void bindAttributes(const Original& original, GLuint copy) {
-  for (const auto& [name, location] : original.linked.attributes)
+  for (const auto& [name, location] : original.linked->attributes)
     gl().BindAttribLocation(copy, location, name.c_str());
   GLint count = 0;
   GLint longest = 0;
@@ -114,29 +98,6 @@ void bindAttributes(const Original& original, GLuint copy) {
     if (location >= 0)
       gl().BindAttribLocation(copy, static_cast<GLuint>(location), name.data());  // built-ins: -1
   }
-}
-
-void copyFeedbackVaryings(GLuint original, GLuint copy) {
-  GLint count = 0;
-  gl().GetProgramiv(original, GL_TRANSFORM_FEEDBACK_VARYINGS, &count);
-  if (guard::clearErrors() || count <= 0) return;
-  GLint longest = 0;
-  GLint mode = GL_INTERLEAVED_ATTRIBS;
-  gl().GetProgramiv(original, GL_TRANSFORM_FEEDBACK_VARYING_MAX_LENGTH, &longest);
-  gl().GetProgramiv(original, GL_TRANSFORM_FEEDBACK_BUFFER_MODE, &mode);
-  std::vector<std::string> names;
-  std::vector<const GLchar*> pointers;
-  for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
-    std::string name(static_cast<std::size_t>(longest) + 1, '\0');
-    GLsizei length = 0;
-    GLsizei size = 0;
-    GLenum type = 0;
-    gl().GetTransformFeedbackVarying(original, i, longest, &length, &size, &type, name.data());
-    name.resize(static_cast<std::size_t>(length));
-    names.push_back(std::move(name));
-  }
-  for (const std::string& name : names) pointers.push_back(name.c_str());
-  gl().TransformFeedbackVaryings(copy, count, pointers.data(), static_cast<GLenum>(mode));
 }
 
 // ---- after the link
@@ -202,12 +163,37 @@ int positionAttribute(GLuint program) {
   return -1;
 }
 
-// Attaches every stage of the original, with the requested one replaced.
-Refusal attachReplayStages(const Original& original, const wire::PrepareT& request, ShaderCache& cache,
-                           GLuint copy) {
+// Stages of a pipeline come from programs of their own: they can be linked into one only if all are from the
+// same.
+Refusal comesFromOneProgram(const Original& original, wire::Stage last) {
+  for (const StageProgram& stage : original.pipeline) {
+    if (runsUpTo(stage.stage, last) && stage.program != original.program)
+      return guard::unsupported(
+          "the stages up to this one come from several programs of a pipeline, which cannot be "
+          "replayed without the stages behind them yet");
+  }
+  return {};
+}
+
+// OpenGL ES links no program without a fragment shader.
+Refusal attachEmptyFragmentStage(GLuint copy) {
+  std::string log;
+  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, {"#version 100\nvoid main() {}\n"}, log)};
+  if (fragment.name == 0) return doesNotCompile(GL_FRAGMENT_SHADER, log);
+  gl().AttachShader(copy, fragment.name);
+  return {};
+}
+
+// Attaches the stages of the original that are replayed, with the requested one replaced.
+Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& original,
+                           const wire::PrepareT& request, ShaderCache& cache, GLuint copy) {
+  const bool unrasterized = request.geometry == wire::Geometry::Unrasterized;
+  if (unrasterized) {
+    if (Refusal refusal = comesFromOneProgram(original, request.stage); !refusal.text.empty()) return refusal;
+  }
   const GLenum replaced = shaderType(request.stage);
   const auto of_stage = [&](const calls::LinkedShader& shader) { return shader.type == replaced; };
-  if (std::none_of(original.linked.shaders.begin(), original.linked.shaders.end(), of_stage)) {
+  if (std::none_of(original.linked->shaders.begin(), original.linked->shaders.end(), of_stage)) {
     return guard::unsupported(std::string("the program has no ") + stageWord(replaced) + " shader");
   }
   std::string log;
@@ -216,7 +202,8 @@ Refusal attachReplayStages(const Original& original, const wire::PrepareT& reque
     if (own.name == 0) return doesNotCompile(replaced, log);
     gl().AttachShader(copy, own.name);
   }
-  for (const calls::LinkedShader& shader : original.linked.shaders) {
+  for (const calls::LinkedShader& shader : original.linked->shaders) {
+    if (unrasterized && !runsUpTo(shader.type, request.stage)) continue;
     if (of_stage(shader) && !request.text.empty()) continue;  // the one text stands for all of the stage's
     if (!shader.source->reason.empty()) {
       return guard::unsupported(std::string("the ") + stageWord(shader.type) +
@@ -226,6 +213,8 @@ Refusal attachReplayStages(const Original& original, const wire::PrepareT& reque
     if (same == 0) return doesNotCompile(shader.type, log);
     gl().AttachShader(copy, same);
   }
+  if (unrasterized && facts.es && request.stage != wire::Stage::Compute)
+    return attachEmptyFragmentStage(copy);
   return {};
 }
 
@@ -277,19 +266,24 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
   copy.program = gl().CreateProgram();
   copy.covering = request.geometry == wire::Geometry::Covering;
   const Refusal attached = copy.covering ? attachCoveringStages(request, copy.program)
-                                         : attachReplayStages(original, request, cache, copy.program);
+                                         : attachReplayStages(facts, original, request, cache, copy.program);
   if (!attached.text.empty()) return attached;
 
-  const bool in_pipeline = !original.pipeline.empty() && !copy.covering;
+  const bool unrasterized = request.geometry == wire::Geometry::Unrasterized;
+  const bool in_pipeline = !original.pipeline.empty() && request.geometry == wire::Geometry::Replay;
   if (in_pipeline) gl().ProgramParameteri(copy.program, GL_PROGRAM_SEPARABLE, GL_TRUE);
-  if (!copy.covering) {
-    bindAttributes(original, copy.program);
-    copyFeedbackVaryings(original.program, copy.program);
+  if (!copy.covering) bindAttributes(original, copy.program);
+  if (unrasterized) {
+    setFeedbackVaryings(facts, copy.program, request);
+  } else {
+    if (!copy.covering) copyFeedbackVaryings(original.program, copy.program);
+    if (Refusal failed = bindOutputs(facts, original, request, copy); !failed.text.empty()) return failed;
   }
-  if (Refusal failed = bindOutputs(facts, original, request, copy); !failed.text.empty()) return failed;
   if (Refusal failed = link(copy); !failed.text.empty()) return failed;
-  if (Refusal failed = confirmCaptures(facts, original.target, request, copy.program, copy.captures);
-      !failed.text.empty()) {
+  if (unrasterized) {
+    copy.stages = Stages{request.stage, request.feedback_outputs, feedbackLayout(copy.program, request)};
+  } else if (Refusal failed = confirmCaptures(facts, original.target, request, copy.program, copy.captures);
+             !failed.text.empty()) {
     return failed;
   }
   if (copy.covering) {
@@ -329,22 +323,15 @@ ProgramCopy::~ProgramCopy() {
   if (program != 0) gl().DeleteProgram(program);
 }
 
-GLenum shaderType(wire::Stage stage) {
-  switch (stage) {
-    case wire::Stage::Vertex:
-      return GL_VERTEX_SHADER;
-    case wire::Stage::TessControl:
-      return GL_TESS_CONTROL_SHADER;
-    case wire::Stage::TessEval:
-      return GL_TESS_EVALUATION_SHADER;
-    case wire::Stage::Geometry:
-      return GL_GEOMETRY_SHADER;
-    case wire::Stage::Fragment:
-      return GL_FRAGMENT_SHADER;
-    case wire::Stage::Compute:
-      return GL_COMPUTE_SHADER;
+Refusal useCopy(const ProgramCopy& copy, const std::vector<std::unique_ptr<wire::UniformValueT>>& uniforms) {
+  gl().UseProgram(copy.program);
+  const std::string problem = setUniforms(copy.program, uniforms);
+  if (copy.pipeline != 0) {
+    gl().UseProgram(0);
+    gl().BindProgramPipeline(copy.pipeline);
   }
-  return 0;
+  selectSubroutines(copy.subroutines);
+  return problem.empty() ? Refusal{} : guard::unsupported(problem);
 }
 
 OrRefusal<std::unique_ptr<ProgramCopy>> copyProgram(const guard::ContextFacts& facts,

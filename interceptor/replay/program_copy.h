@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "interceptor/calls/tracking.h"
+#include "interceptor/capture/feedback.h"
 #include "interceptor/capture/shadow.h"
 #include "interceptor/guard/context_facts.h"
 #include "interceptor/guard/refusal.h"
@@ -35,6 +37,13 @@ class ShaderCache {
   std::map<std::shared_ptr<const calls::CompiledSource>, GLuint> shaders_;
 };
 
+// Of a copy that has the stages up to one of them only.
+struct Stages {
+  wire::Stage last = wire::Stage::Vertex;
+  std::vector<std::string> outputs;  // original ones that transform feedback gets
+  capture::FeedbackLayout feedback;
+};
+
 // Deletes the program when it goes.
 struct ProgramCopy {
   ProgramCopy() = default;
@@ -51,6 +60,7 @@ struct ProgramCopy {
   std::vector<capture::CaptureBuffer> captures;  // in the order of Prepare.captures
   bool dual_source = false;                      // an output is the second source of blending
   int storage_binding = -1;                      // -1 = no storage block alive
+  std::optional<Stages> stages;                  // with Geometry::Unrasterized
   std::vector<SubroutineChoice> subroutines;
   std::string log;
   std::uint64_t compile_ns = 0;
@@ -59,7 +69,7 @@ struct ProgramCopy {
 struct Original {
   GLuint program = 0;
   const std::vector<StageProgram>& pipeline;  // empty: the program is current
-  const calls::LinkedProgram& linked;
+  std::shared_ptr<const calls::LinkedProgram> linked;
   const capture::DrawTarget& target;
 };
 
@@ -67,6 +77,8 @@ struct Original {
 guard::OrRefusal<std::unique_ptr<ProgramCopy>> copyProgram(const guard::ContextFacts&, const Original&,
                                                            const wire::PrepareT&, ShaderCache&);
 
-GLenum shaderType(wire::Stage);
+// Makes the copy, or its pipeline, current, with these values of its uniforms. The caller holds a
+// ProgramGuard.
+guard::Refusal useCopy(const ProgramCopy&, const std::vector<std::unique_ptr<wire::UniformValueT>>& uniforms);
 
 }  // namespace shadestep::replay

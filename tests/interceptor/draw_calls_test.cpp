@@ -57,7 +57,7 @@ namespace shadestep::calls {
 
 void onDraw(const DrawCall& call) {
   told.push_back({call.name, call.mode, call.count, call.instances, call.replay != nullptr});
-  if (replayOnce && call.replay) call.replay(call.arguments);
+  if (replayOnce && call.replay) call.replay(call.arguments, call.mode);
 }
 
 }  // namespace shadestep::calls

@@ -1,0 +1,67 @@
+// What all kinds of executions share: how they are timed, and where in the bulk memory their results go.
+// Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
+#pragma once
+
+#include <time.h>
+
+#include <cstdint>
+#include <memory>
+
+#include "interceptor/capture/storage.h"
+#include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/refusal.h"
+#include "interceptor/replay/program_copy.h"
+#include "wire/channel.h"
+#include "wire/messages_generated.h"
+
+namespace shadestep::agent {
+
+inline std::uint64_t now(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
+}
+
+// Draws and notes how long that took, on the wall and in CPU time of the whole program: nothing is in flight
+// before it, all is done after it.
+template <class Draw>
+void timed(wire::ExecutedT& executed, Draw draw) {
+  dispatch::gl().Finish();
+  const std::uint64_t wall = now(CLOCK_MONOTONIC);
+  const std::uint64_t cpu = now(CLOCK_PROCESS_CPUTIME_ID);
+  draw();
+  dispatch::gl().Finish();
+  executed.cpu_ns.push_back(now(CLOCK_PROCESS_CPUTIME_ID) - cpu);
+  executed.times_ns.push_back(now(CLOCK_MONOTONIC) - wall);
+}
+
+// Hands out ranges of the memory that travels beside Executed; aligned for any word.
+class BulkLayout {
+ public:
+  std::unique_ptr<wire::BulkRangeT> add(std::uint64_t bytes) {
+    auto range = std::make_unique<wire::BulkRangeT>();
+    range->offset = total_;
+    range->bytes = bytes;
+    total_ += (bytes + 63) / 64 * 64;
+    return range;
+  }
+  // False: there is no memory for it.
+  bool create(wire::SharedMemory& memory) const {
+    if (total_ == 0) return true;
+    memory = wire::SharedMemory::create("shadestep-values", total_);
+    return static_cast<bool>(memory);
+  }
+
+ private:
+  std::uint64_t total_ = 0;
+};
+
+inline guard::Refusal noMemory() {
+  return guard::limit("there is not enough shared memory for the captured values");
+}
+
+// The storage buffer as the request wants it, bound where the copy has its block.
+guard::Refusal resetStorage(capture::StorageBuffer&, const replay::ProgramCopy&, const wire::ExecuteT&);
+
+}  // namespace shadestep::agent

@@ -1,0 +1,149 @@
+// Capture passes of stages other than the fragment stage: their threads come as a list.
+#include <algorithm>
+#include <numeric>
+
+#include "session/session_state.h"
+
+namespace shadestep::session {
+namespace {
+
+using instrumenter::AttachmentLayout;
+using instrumenter::Carrier;
+
+constexpr std::uint64_t kHeader = 4;  // words of a list before its threads
+constexpr int kLeastRoom = 16;        // components that are left to captures at least
+
+bool isDouble(const instrumenter::FeedbackOutput& output) {
+  return output.type.basic == frontend::Basic::double_;
+}
+
+// The stage whose outputs a replay leaves: a control stage runs with its evaluation stage.
+Stage lastOf(Stage stage) {
+  return stage == Stage::tess_control ? Stage::tess_eval : stage;
+}
+
+int wordsPerThread(const AttachmentLayout& layout) {
+  return layout.attachments() * 4;
+}
+
+// `words` of each record, which are `stride` apart.
+ThreadWords threadsOf(std::span<const std::uint32_t> records, int stride, int words) {
+  ThreadWords threads;
+  threads.width = stride > 0 ? static_cast<int>(records.size() / static_cast<std::size_t>(stride)) : 0;
+  threads.height = 1;
+  threads.words = words;
+  threads.data.reserve(static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(words));
+  for (int i = 0; i < threads.width; ++i) {
+    const auto first = records.begin() + static_cast<std::ptrdiff_t>(i) * stride;
+    threads.data.insert(threads.data.end(), first, first + words);
+  }
+  return threads;
+}
+
+// Threads list themselves as they end. Sorted by their identities, which are integers: rows of vertices and
+// of invocations first, but all invocations on one primitive together.
+void sortByIdentity(ThreadWords& threads, const AttachmentLayout& layout, Stage stage) {
+  std::vector<int> words;
+  for (const instrumenter::Field& field : layout.identity) words.push_back(field.first_word);
+  if (stage == Stage::vertex || stage == Stage::compute) std::reverse(words.begin(), words.end());
+  std::vector<int> order(static_cast<std::size_t>(threads.width));
+  std::iota(order.begin(), order.end(), 0);
+  const auto before = [&](int a, int b) {
+    for (const int word : words) {
+      const auto left = static_cast<std::int32_t>(threads.at(a, 0)[word]);
+      const auto right = static_cast<std::int32_t>(threads.at(b, 0)[word]);
+      if (left != right) return left < right;
+    }
+    return false;
+  };
+  std::stable_sort(order.begin(), order.end(), before);
+  std::vector<std::uint32_t> sorted;
+  sorted.reserve(threads.data.size());
+  for (const int i : order) sorted.insert(sorted.end(), threads.at(i, 0), threads.at(i, 0) + threads.words);
+  threads.data = std::move(sorted);
+}
+
+}  // namespace
+
+// Doubles first, which transform feedback wants at even offsets.
+ComparedOutputs comparedOutputs(const frontend::Shader& last, int components) {
+  ComparedOutputs compared;
+  std::vector<instrumenter::FeedbackOutput> outputs = instrumenter::feedbackOutputs(last);
+  std::stable_partition(outputs.begin(), outputs.end(), isDouble);
+  bool doubles = false;
+  for (const instrumenter::FeedbackOutput& output : outputs) {
+    const int words = frontend::wordCount(output.type);
+    if (compared.words + words + 1 > components - kLeastRoom) {
+      compared.left_out += (compared.left_out.empty() ? "" : ", ") + output.name;
+      continue;
+    }
+    compared.names.push_back(output.name);
+    compared.words += words;
+    doubles = doubles || isDouble(output);
+  }
+  if (doubles && compared.words % 2 != 0) {
+    compared.names.emplace_back("gl_SkipComponents1");
+    ++compared.words;
+  }
+  return compared;
+}
+
+// A copy with the stages up to the selected one. Outputs that the driver does not take are not compared.
+Prepared Session::prepareStages(const std::string& text, const AttachmentLayout& layout) {
+  wire::PrepareT prepare;
+  prepare.stage = static_cast<wire::Stage>(stage());
+  prepare.text = text;
+  prepare.geometry = wire::Geometry::Unrasterized;
+  prepare.storage_block = layout.list_block;
+  if (layout.carrier == Carrier::uint_feedback || layout.carrier == Carrier::float_feedback)
+    prepare.feedback_captures = layout.outputs;
+  if (facts().feedback_components > 0 && stage() != Stage::compute)
+    prepare.feedback_outputs = comparedOutputs(shader(lastOf(stage())), facts().feedback_components).names;
+  const bool with_outputs = !prepare.feedback_outputs.empty();
+  Prepared prepared;
+  try {
+    prepared = send(wire::PrepareT(prepare));
+  } catch (const DriverRefusal&) {
+    if (!with_outputs) throw;
+    prepare.feedback_outputs.clear();
+    prepared = send(std::move(prepare));
+  }
+  prepared.storage = !layout.list_block.empty();
+  return prepared;
+}
+
+Captured Session::captureThreads(const Prepared& prepared, const AttachmentLayout& layout,
+                                 const ExecuteOptions& options) {
+  Captured captured;
+  captured.layout = layout;
+  if (layout.carrier != Carrier::list) {
+    captured.execution = execute(prepared, options);
+    captured.threads =
+        threadsOf(captured.execution.feedback, captured.execution.feedback_words, layout.words);
+    return captured;
+  }
+  const auto words = static_cast<std::uint64_t>(wordsPerThread(layout));
+  const std::uint64_t most = (kMostWords - kHeader) / words;
+  ExecuteOptions listing = options;
+  std::uint64_t ended = 0;
+  while (true) {
+    const std::uint64_t room = std::min(state_->listed_room, most);
+    listing.storage = {0, static_cast<std::uint32_t>(room), 0, 0};
+    listing.storage_words = kHeader + room * words;
+    captured.execution = execute(prepared, listing);
+    ended = captured.execution.storage.at(0);
+    if (ended <= room) break;
+    if (room == most) {
+      throw Error(Outcome::cannot_debug, "the values of " + std::to_string(ended) +
+                                             " threads take more than 1 GiB; print fewer values at once");
+    }
+    state_->listed_room = ended;
+  }
+  const std::span<const std::uint32_t> listed(captured.execution.storage);
+  captured.threads = threadsOf(listed.subspan(kHeader, ended * words), static_cast<int>(words), layout.words);
+  sortByIdentity(captured.threads, layout, stage());
+  captured.execution.storage.clear();
+  return captured;
+}
+
+}  // namespace shadestep::session
