@@ -144,7 +144,7 @@ std::string noValue(const Shader& shader, const DrawFacts& facts, const frontend
 }
 
 void takeOutDropped(Session& session, const std::vector<frontend::Watch>& watches, ThreadValues& values) {
-  const Shader& shader = session.shader(Stage::fragment);
+  const Shader& shader = session.shader();
   values.check.dropped = droppedUniforms(session);
   for (const frontend::Watch& watch : watches) {
     const std::string reason = noValue(shader, session.facts(), watch);
@@ -158,7 +158,7 @@ void takeOutDropped(Session& session, const std::vector<frontend::Watch>& watche
 }
 
 std::string droppedUniforms(Session& session) {
-  const Shader& shader = session.shader(Stage::fragment);
+  const Shader& shader = session.shader();
   std::vector<VariableId> whole, parts;
   for (std::size_t i = 0; i < shader.variables.size(); ++i) {
     const Variable& variable = shader.variables[i];

@@ -24,7 +24,7 @@ struct DrawRequest {
   std::string vertex_text;                // "" = one that gives `vec2 place` in [0, 1]
   std::vector<std::string> user_outputs;  // bound to locations 0...
   int color_buffers = 1;
-  AttachmentLayout capture{Carrier::uint_attachments, 0, {}, {}, 0, {}, 0};  // words = 0: none
+  AttachmentLayout capture{Carrier::uint_attachments, 0, {}, {}, {}, 0, {}, 0, {}};  // words = 0: none
   std::string storage_block;
   std::vector<std::uint32_t> storage;
   std::map<std::string, Uniform> uniforms;

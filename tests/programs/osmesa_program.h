@@ -24,12 +24,12 @@ inline constexpr int kSize = 64;
 class OsmesaContext {
  public:
   enum class Profile { compatibility, core };
-  explicit OsmesaContext(Profile profile = Profile::compatibility)
+  explicit OsmesaContext(Profile profile = Profile::compatibility, int major = 3, int minor = 3)
       : colour_(static_cast<std::size_t>(kSize) * kSize * 4) {
     std::vector<int> attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24};
     if (profile == Profile::core)
       attributes.insert(attributes.end(), {OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION,
-                                           3, OSMESA_CONTEXT_MINOR_VERSION, 3});
+                                           major, OSMESA_CONTEXT_MINOR_VERSION, minor});
     attributes.push_back(0);
     context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
     if (!context_ || !OSMesaMakeCurrent(context_, colour_.data(), GL_UNSIGNED_BYTE, kSize, kSize))
