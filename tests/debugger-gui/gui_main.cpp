@@ -9,6 +9,8 @@
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   QStandardPaths::setTestModeEnabled(true);
+  if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM"))
+    qputenv("QT_QPA_PLATFORM", "offscreen");  // also to list the tests
   QApplication application(argc, argv);
   QApplication::setOrganizationName("shadestep-tests");
   QApplication::setApplicationName("shadestep-tests");
