@@ -14,10 +14,10 @@ bool mentions(const frontend::Shader& shader, std::string_view name) {
 }  // namespace
 
 Result<std::string> instrumentFilledOutputs(const frontend::Shader& shader, const Target& target,
-                                            float fill) {
+                                            int quarters) {
   Draft draft(shader);
-  const std::string value = std::to_string(fill);
-  std::string assignments = assignOutputs(shader, value);
+  const std::string value = std::to_string(static_cast<float>(quarters) / 4);
+  std::string assignments = assignOutputs(shader, value, std::to_string(quarters));
   if (mentions(shader, "gl_FragColor")) assignments += "  gl_FragColor = vec4(" + value + ");\n";
   if (mentions(shader, "gl_FragData")) {
     for (int i = 0; i < target.used_draw_buffers; ++i)

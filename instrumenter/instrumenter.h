@@ -230,9 +230,10 @@ Result<WindowShader> instrumentWindow(const frontend::Shader&, const std::vector
 
 Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Target&);
 
-// The user's shader with every colour output set to `fill` before main. Where what it draws depends on
-// `fill`, it leaves an output undefined. Nothing else is changed and nothing captured.
-Result<std::string> instrumentFilledOutputs(const frontend::Shader&, const Target&, float fill);
+// The user's shader with every colour output set before main, to so many quarters, integers to that number.
+// Where what it draws depends on that, it leaves an output undefined. Nothing else is changed and nothing
+// captured.
+Result<std::string> instrumentFilledOutputs(const frontend::Shader&, const Target&, int quarters);
 
 // The user's tokens, emitted with nothing inserted: the round trip.
 std::string uninstrumented(const frontend::Shader&);

@@ -5,7 +5,7 @@
 namespace shadestep::session {
 namespace {
 
-constexpr float kFills[] = {0.25F, 0.75F};  // not 0 and 1, at which blending may saturate
+constexpr int kFills[] = {1, 3};  // quarters: not 0 and 1, at which blending may saturate
 
 std::vector<ColorOutput> drawn(Session& session, const Prepared& prepared) {
   ExecuteOptions options;
@@ -14,7 +14,7 @@ std::vector<ColorOutput> drawn(Session& session, const Prepared& prepared) {
   return session.execute(prepared, options).outputs;
 }
 
-std::vector<ColorOutput> drawnFilled(Session& session, float fill) {
+std::vector<ColorOutput> drawnFilled(Session& session, int fill) {
   const auto text =
       instrumenter::instrumentFilledOutputs(session.shader(Stage::fragment), session.target(), fill);
   if (const auto* failure = std::get_if<instrumenter::Failure>(&text)) {

@@ -47,19 +47,23 @@ void addParts(const Part& whole, std::vector<Part>& parts) {
 
 std::vector<VariableId> inScope(const Shader& shader, const Probe& probe) {
   const Statement& at = shader.statements[static_cast<std::size_t>(probe.statement)];
+  std::vector<VariableId> declared;
+  const auto declares = [&](const Statement& statement) {
+    for (const frontend::Declarator& one : statement.declarators)
+      if (one.variable != kNone) declared.push_back(one.variable);
+  };
+  declares(at);
+  if (at.init != kNone) declares(shader.statements[static_cast<std::size_t>(at.init)]);
   std::vector<VariableId> names = at.scope;
-  if (probe.when == Probe::When::after && probe.inside == kNone) {
-    const auto declared = [&](const std::vector<frontend::Declarator>& declarators) {
-      for (const frontend::Declarator& one : declarators) {
-        if (one.variable != kNone) names.push_back(one.variable);
-      }
-    };
-    declared(at.declarators);
-    if (at.init != kNone) declared(shader.statements[static_cast<std::size_t>(at.init)].declarators);
-  }
   // An inner variable hides an outer one of its name; memory shared between threads has no value of its
   // own.
   std::set<std::string> taken;
+  if (probe.inside != kNone) {
+    // Inside of the statement, a name that it declares may mean the outer variable or already the inner one.
+    for (const VariableId id : declared) taken.insert(shader.variables[static_cast<std::size_t>(id)].name);
+  } else if (probe.when == Probe::When::after) {
+    names.insert(names.end(), declared.begin(), declared.end());
+  }
   std::vector<VariableId> result;
   for (auto id = names.rbegin(); id != names.rend(); ++id) {
     const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(*id)];

@@ -25,7 +25,7 @@ bool writesFragData(const frontend::Shader& shader) {
   return mentions(shader, kFragColor) || mentions(shader, "gl_FragData");
 }
 
-std::string assignOutputs(const frontend::Shader& shader, std::string_view value) {
+std::string assignOutputs(const frontend::Shader& shader, std::string_view value, std::string_view integer) {
   std::string text;
   for (const frontend::VariableId id : shader.outputs) {
     const frontend::Variable& output = shader.variables[static_cast<std::size_t>(id)];
@@ -33,7 +33,8 @@ std::string assignOutputs(const frontend::Shader& shader, std::string_view value
       const char* type = component.basic == frontend::Basic::int_    ? "int"
                          : component.basic == frontend::Basic::uint_ ? "uint"
                                                                      : "float";
-      text += "  " + output.name + component.access + " = " + type + "(" + std::string(value) + ");\n";
+      const std::string_view given = component.basic == frontend::Basic::float_ ? value : integer;
+      text += "  " + output.name + component.access + " = " + type + "(" + std::string(given) + ");\n";
     }
   }
   return text;

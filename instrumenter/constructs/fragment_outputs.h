@@ -18,9 +18,8 @@ namespace shadestep::instrumenter {
 // Does the shader mention gl_FragColor or gl_FragData? (A mention is a static use, written or not.)
 bool writesFragData(const frontend::Shader&);
 
-// GLSL statements that give every component of every declared output this value ("0", "0.25"), cast to its
-// type.
-std::string assignOutputs(const frontend::Shader&, std::string_view value);
+// GLSL statements that give every component of every declared output a value ("0", "0.25"), integers theirs.
+std::string assignOutputs(const frontend::Shader&, std::string_view value, std::string_view integer);
 
 // Replaces gl_FragColor everywhere. Assumes that captures go to gl_FragData.
 void replaceFragColor(Draft&);

@@ -53,6 +53,27 @@ TEST(UndefinedOutputs, OfComponentsThatAreNotWritten) {
                   kSide * kSide * 2);
 }
 
+// Integers are told apart too: a fill that rounds to the same number would show nothing.
+TEST(UndefinedOutputs, OfIntegersThatAreNotWritten) {
+  const Scratch scratch;
+  const auto write = [&](const char* name, const char* text) {
+    std::ofstream(scratch.file(name)) << text;
+    return scratch.file(name);
+  };
+  const Finished finished = scratch.shadestep(
+      {"debug", "--json", "--pixel", "1,1"},
+      {binary("programs/generator-draw"),
+       write("scene.txt", "context compatibility\nsize 6 5\ntarget uint\nout color 0\nuniform low i 1 1\n"),
+       write("shader.vert",
+             "#version 130\nin vec2 corner;\nvoid main() { gl_Position = vec4(corner, 0.0, 1.0); }\n"),
+       write("shader.frag",
+             "#version 130\nuniform int low;\nout uvec4 color;\nvoid main() {\n"
+             "  if (low == 77) color = uvec4(7u, 25u, 4u, 24u);\n}\n"),
+       scratch.file("result.txt")});
+  ASSERT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(finished.json().at("check").at("undefined"), 6 * 5 * 4);
+}
+
 TEST(UndefinedOutputs, DoNotHideADifferenceInWhatIsWritten) {
   const Scratch scratch;
   const std::string file = scratch.file("shader.frag");

@@ -8,7 +8,7 @@ from pathlib import Path
 import check
 import scopes
 from dialect import Dialect
-from interpret import Undefined
+from interpret import Broken, Continued, Undefined
 from tree import E, Program, S
 
 MOST_TRIES = 400
@@ -42,7 +42,7 @@ class Reducer:
         self.tries += 1
         try:
             found = check.Check(candidate, self.dialect, self.folder / "reduced", self.tools, self.seed, only).run()
-        except (Undefined, scopes.Invalid, KeyError, RecursionError):
+        except (Undefined, Broken, Continued, scopes.Invalid, KeyError, RecursionError):
             return False
         if found.kind != self.outcome.kind:
             return False
