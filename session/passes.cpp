@@ -36,6 +36,7 @@ void Check::merge(const Check& other) {
   undefined = std::max(undefined, other.undefined);
   compared = std::max(compared, other.compared);
   differing = std::max(differing, other.differing);
+  if (left_out.empty()) left_out = other.left_out;
   if (dropped.empty()) dropped = other.dropped;
 }
 
@@ -304,6 +305,7 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   result.check.compared = reply.compared;
   result.check.differing = reply.differing;
   result.check.reason = options.compare ? reply.compare_reason : "not asked for";
+  if (options.compare) result.check.left_out = prepared.uncompared;
   // What is looked at there is one plane of the target.
   const bool one_plane = facts().layers <= 1 && facts().samples <= 1;
   if (stage() == Stage::fragment && reply.differing + reply.unstable > 0 && reply.outside_colors == 0 &&

@@ -15,13 +15,16 @@ class SinglePlan : public CapturePlan {
   ThreadValues look(const instrumenter::Probe& probe) override { return session::valuesAt(session_, probe); }
 };
 
-// A window where one fits, else single probes.
+// A window where one fits, else single probes; these behind calls, too, where the sign of a zero is not the
+// same in a window (docs/verification.md, known limits).
 class AutomaticPlan : public CapturePlan {
  public:
   explicit AutomaticPlan(Session& session) : CapturePlan(session), window_(session), single_(session) {}
 
  private:
   ThreadValues look(const instrumenter::Probe& probe) override {
+    const bool behind_call = probe.inside != frontend::kNone && !probe.outcome;
+    if (behind_call) return single_.valuesAt(probe);
     try {
       return window_.valuesAt(probe);
     } catch (const Error& error) {

@@ -101,8 +101,10 @@ struct Check {
   std::string reason;  // why not compared
   std::uint64_t undefined =
       0;  // components not counted above: the shader leaves them undefined (it writes no value)
-  std::string left_out;  // which threads of the draw the values do not cover ("" = none), for the user
-  std::string dropped;   // which uniforms the driver has no values of ("" = none), for the user
+  // Which threads of the draw the values do not cover, or which outputs are not compared ("" = none), for the
+  // user.
+  std::string left_out;
+  std::string dropped;  // which uniforms the driver has no values of ("" = none), for the user
   bool identical() const { return compared_at_all && differing == 0; }
   // "identical", "differs", "not compared"
   void merge(const Check& other);  // the check of two passes together; a fresh one takes the other over
@@ -128,6 +130,8 @@ class Prepared {
   std::chrono::nanoseconds compile_time{0};
   bool storage = false;  // it has a storage block of ours, which a buffer must always be bound to
   std::vector<int> output_locations;  // of the shader's declared outputs, as far as the program writes them
+  std::string uncompared;  // what of the outputs a replay of it does not compare, and why ("" = nothing), for
+                           // the user
 
  private:
   Session* session_ = nullptr;

@@ -97,8 +97,14 @@ Prepared Session::prepareStages(const std::string& text, const AttachmentLayout&
   prepare.storage_block = layout.list_block;
   if (layout.carrier == Carrier::uint_feedback || layout.carrier == Carrier::float_feedback)
     prepare.feedback_captures = layout.outputs;
-  if (facts().feedback_components > 0 && stage() != Stage::compute)
-    prepare.feedback_outputs = comparedOutputs(shader(lastOf(stage())), facts().feedback_components).names;
+  std::string uncompared;
+  if (stage() != Stage::compute) {
+    ComparedOutputs outputs = comparedOutputs(shader(lastOf(stage())), facts().feedback_components);
+    prepare.feedback_outputs = std::move(outputs.names);
+    if (!outputs.left_out.empty())
+      uncompared =
+          "transform feedback has no room for these outputs, which are not compared: " + outputs.left_out;
+  }
   const bool with_outputs = !prepare.feedback_outputs.empty();
   Prepared prepared;
   try {
@@ -107,7 +113,9 @@ Prepared Session::prepareStages(const std::string& text, const AttachmentLayout&
     if (!with_outputs) throw;
     prepare.feedback_outputs.clear();
     prepared = send(std::move(prepare));
+    uncompared = "the driver refuses the stage's outputs in transform feedback: they are not compared";
   }
+  prepared.uncompared = std::move(uncompared);
   prepared.storage = !layout.list_block.empty();
   return prepared;
 }
