@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUT = ROOT / "docs/charts"
 COLOURS = ["#1b6ca8", "#d1495b", "#2e8b57", "#b8860b", "#7b4fa6", "#444444", "#00a0a0", "#c06000", "#999999"]
-DASHES = {"32 bit": "", "16 bit": "6 3", "8 bit": "2 3"}
+DASHES = {"32 bit": "", "16 bit": "6 3", "8 bit": "2 3", "plan": "", "best fixed": "6 3"}
 
 
 class Panel:
@@ -89,7 +89,7 @@ def read(name):
 
 
 def style(names):
-    """One colour for each first part of a name, one dash for its bits."""
+    """One colour for each first part of a name, one dash for its last (bits, or how it was chosen)."""
     heads = []
     for name in names:
         head = next((name[:-len(bits) - 1] for bits in DASHES if name.endswith(" " + bits)), name)
@@ -168,9 +168,12 @@ def draw(name):
         chart(name, "What a Kubelka-Munk table holds (C60, milk)", [by_fetches, largest])
     elif name == "adaptive":
         chart(name, "Adaptive sampling (C60 128, limit 0.999; step 1/64 to 1/1024)", [by_fetches, largest])
+    elif name == "plan":
+        chart(name, "Plans for a budget against the best of 810 fixed settings (C60; dotted: the budget)",
+              [("error against budget", "x", "rms", "budget", error, True, True, lambda budget: budget), by_fetches, time])
 
 
-NAMES = ["step", "table", "termination", "leaping", "wavelengths", "storage", "adaptive"]
+NAMES = ["step", "table", "termination", "leaping", "wavelengths", "storage", "adaptive", "plan"]
 
 
 def main():

@@ -27,17 +27,18 @@ class Search {
 
   // The finest settings must keep the budget.
   Settings choose() {
-    at_ = Settings(knobs_.size(), 0);
+    Settings settings(knobs_.size(), 0);
     for (std::size_t knob = 0; knob < knobs_.size(); ++knob)
-      at_[knob] = turned(at_, knob, knobs_[knob].share);
-    while (tradeAny()) {
-    }
-    return turnFurther(at_);
+      settings[knob] = turned(settings, knob, knobs_[knob].share);
+    return improved(std::move(settings));
   }
 
-  // By single steps until none keeps the budget.
-  Settings turnFurther(Settings from) {
+  // By trades until none makes it cheaper, then by single steps until none keeps the budget (these may take
+  // back a trade, so there is none after them). The settings given must keep the budget.
+  Settings improved(Settings from) {
     at_ = std::move(from);
+    while (tradeAny()) {
+    }
     while (turnAnyFurther()) {
     }
     return at_;
@@ -63,21 +64,32 @@ class Search {
     return good;
   }
 
-  // A trade has to save some hundredths: a knob is not made finer for less.
   bool tradeAny() {
-    constexpr double kWorth = 0.98;
     for (std::size_t knob = 1; knob < knobs_.size(); ++knob)
       for (const bool finer : {true, false}) {
         if (finer ? at_[knob] == 0 : at_[knob] + 1 == knobs_[knob].values.size()) continue;
-        Settings traded = with(knob, finer ? at_[knob] - 1 : at_[knob] + 1);
-        traded[0] = 0;
-        if (!keeps(traded, 1)) continue;
-        traded[0] = turned(traded, 0, 1);
-        if (traded[0] == at_[0] || cost_(traded) > kWorth * cost_(at_)) continue;
+        const Settings traded = worthwhile(with(knob, finer ? at_[knob] - 1 : at_[knob] + 1));
+        if (traded == at_ || !keeps(traded, 1)) continue;
         at_ = traded;
         return true;
       }
     return false;
+  }
+
+  // The same with the finest value of the first knob that makes it cheaper than where we are: a trade has to
+  // save some hundredths, a knob is not made finer for less. Where we are if there is none. Draws no trial.
+  Settings worthwhile(Settings settings) {
+    constexpr double kWorth = 0.98;
+    const double limit = kWorth * cost_(at_);
+    if (cost_(settings) > limit) {
+      do {
+        if (++settings[0] == knobs_[0].values.size()) return at_;
+      } while (cost_(settings) > limit);
+      return settings;
+    }
+    Settings finer = settings;
+    while (finer[0]-- > 0 && cost_(finer) <= limit) settings = finer;
+    return settings;
   }
 
   bool turnAnyFurther() {
@@ -144,7 +156,7 @@ Plan choosePlan(const std::vector<Knob>& knobs, double budget, const Pilot& pilo
     if (bound <= budget && bound >= kNearEnough * budget) break;
     target *= std::min((1 + kNearEnough) / 2 * budget / bound, bound > budget ? kLess : kMore);
   }
-  if (kept) best = Search(knobs, budget, judge, cost).turnFurther(best);
+  if (kept) best = Search(knobs, budget, judge, cost).improved(best);
   return described(knobs, best, kept, pilots, judge);
 }
 

@@ -18,6 +18,7 @@ struct Outcome {
   std::string output;  // both streams
 };
 
+// `before` is a command that runs a command.
 Outcome run(const std::string& arguments, const std::string& before = "") {
   const std::string command = before + " " RAYCASTER " " + arguments + " 2>&1";
   FILE* const pipe = popen(command.c_str(), "r");
@@ -108,6 +109,12 @@ TEST_F(Program, SaysWhatToDoWithoutAnXServer) {
   const Outcome outcome = run("--context glx", "env -u DISPLAY");
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_NE(outcome.output.find("xvfb-run -a"), std::string::npos) << outcome.output;
+}
+
+TEST_F(Program, IsTurnedZoomedChangedAndLeftInItsWindow) {
+  const Outcome outcome = run("--interactive --context glx --size 64", "xvfb-run -a " WINDOW_DRIVER);
+  EXPECT_EQ(outcome.exit, 0) << outcome.output;
+  EXPECT_EQ(outcome.output, "");
 }
 
 TEST_F(Program, SaysThatLlvmpipeCutsLongRays) {
