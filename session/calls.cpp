@@ -93,8 +93,8 @@ void Session::forEachCall(const CallFilter& filter, const CallVisitor& visit) {
   if (stopped != nullptr) return;
   const LastSeen& last = state_->programs.lastSeen();
   if (!last.used_gl || last.frame < filter.first_frame) {
-    throw Error(Outcome::ended, state_->programs.describeEnd() + ", before frame " +
-                                    std::to_string(filter.first_frame) + " began");
+    throw Error(Outcome::ended,
+                state_->programs.describeEnd("frame " + std::to_string(filter.first_frame) + " began"));
   }
 }
 

@@ -270,7 +270,7 @@ void Programs::quit() {
   peers_.clear();
 }
 
-std::string Programs::describeEnd() {
+std::string Programs::describeEnd(const std::string& before) {
   const auto& status = process_.wait(0);
   const std::string ended = "'" + name_ + "' " + (status ? status->describe() : std::string("ended"));
   if (!last_.connected) {
@@ -283,6 +283,7 @@ std::string Programs::describeEnd() {
   for (const std::string& call : last_.calls) where += ", in " + call;
   const auto crash = tracer_ && last_.died != 0 ? tracer_->crash(last_.died) : std::nullopt;
   if (crash) where += ": " + describe(*crash);
+  if (!before.empty()) where += ", before " + before;
   return ended + where;
 }
 

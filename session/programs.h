@@ -81,8 +81,8 @@ class Programs {
   pid_t processId() const { return process_.pid(); }
   const LastSeen& lastSeen() const { return last_; }
   const std::optional<ExitStatus>& exitStatus() { return process_.wait(0); }
-  // Where things stood when all ended, for the user.
-  std::string describeEnd();
+  // Where things stood when all ended, for the user; `before` is what was waited for ("" = nothing).
+  std::string describeEnd(const std::string& before = "");
 
  private:
   void greet();

@@ -145,8 +145,8 @@ DrawStop Session::runTo(std::uint64_t frame, std::uint64_t draw) {
                                                 std::to_string(frame) + ", which " +
                                                 ordinalDraws(last.draws));
     }
-    throw Error(Outcome::ended, state_->programs.describeEnd() + ", before frame " + std::to_string(frame) +
-                                    ", draw " + std::to_string(draw));
+    throw Error(Outcome::ended, state_->programs.describeEnd("frame " + std::to_string(frame) + ", draw " +
+                                                             std::to_string(draw)));
   }
   if (const wire::FrameEndedT* ended = message->body.AsFrameEnded()) {
     throw Error(Outcome::nothing_matches, "no draw " + std::to_string(draw) + " in frame " +
@@ -189,8 +189,7 @@ std::vector<std::uint64_t> Session::forEachDraw(std::uint64_t first, std::uint64
   if (frame <= last && !state_->programs.isStopped()) {
     const LastSeen& seen = state_->programs.lastSeen();
     if (!seen.used_gl || seen.frame < first || !seen.orderly) {
-      throw Error(Outcome::ended,
-                  state_->programs.describeEnd() + ", before frame " + std::to_string(first) + " ended");
+      throw Error(Outcome::ended, state_->programs.describeEnd("frame " + std::to_string(first) + " ended"));
     }
     if (seen.frame == frame && (seen.draws > 0 || draws_per_frame.empty()))
       draws_per_frame.push_back(seen.draws);

@@ -30,6 +30,8 @@ struct PacketHeader {
 constexpr std::uint32_t kMagic = 0x50455453;  // "STEP"
 constexpr std::size_t kLargestInline = 64 * 1024;
 constexpr std::size_t kLargestMessage = 256u * 1024 * 1024;
+// Memory that the other side could cut short would kill who reads it (SIGBUS).
+constexpr int kOfFixedSize = F_SEAL_SHRINK | F_SEAL_GROW;
 
 sockaddr_un abstractAddress(const std::string& name, socklen_t& length) {
   sockaddr_un address{};
@@ -229,14 +231,18 @@ Channel Listener::accept(int timeout_ms) {
 }
 
 SharedMemory SharedMemory::create(const char* label, std::size_t bytes) {
-  Descriptor fd(memfd_create(label, MFD_CLOEXEC));
-  if (!fd || ftruncate(fd.get(), static_cast<off_t>(bytes)) != 0) return {};
+  Descriptor fd(memfd_create(label, MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  if (!fd || ftruncate(fd.get(), static_cast<off_t>(bytes)) != 0 ||
+      fcntl(fd.get(), F_ADD_SEALS, kOfFixedSize) != 0)
+    return {};
   return map(std::move(fd));
 }
 
 SharedMemory SharedMemory::map(Descriptor fd) {
   struct stat info {};
-  if (!fd || fstat(fd.get(), &info) != 0 || info.st_size <= 0) return {};
+  const int seals = fd ? fcntl(fd.get(), F_GET_SEALS) : -1;
+  if (seals < 0 || (seals & kOfFixedSize) != kOfFixedSize) return {};
+  if (fstat(fd.get(), &info) != 0 || info.st_size <= 0) return {};
   const auto size = static_cast<std::size_t>(info.st_size);
   // All of it is about to be written or read: mapped at once it costs no fault a page.
   void* data = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, fd.get(), 0);

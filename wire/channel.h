@@ -88,7 +88,8 @@ class SharedMemory {
  public:
   SharedMemory() = default;
   static SharedMemory create(const char* label, std::size_t bytes);  // empty on failure
-  static SharedMemory map(Descriptor fd);                            // whole file; empty on failure
+  // The whole of another's; empty on failure, and where its size is not sealed.
+  static SharedMemory map(Descriptor fd);
   SharedMemory(SharedMemory&&) noexcept;
   SharedMemory& operator=(SharedMemory&&) noexcept;
   ~SharedMemory();

@@ -19,6 +19,7 @@
 #include "interceptor/agent/watched_calls.h"
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
+#include "interceptor/calls/queries.h"
 #include "interceptor/calls/watch.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
@@ -265,6 +266,7 @@ void onContextCurrent() {
 
 void onContextGone(const dispatch::Context& context) {
   guard::forgetErrors(&context);
+  forgetQueries(context);
 }
 
 GLenum replace_glGetError() {

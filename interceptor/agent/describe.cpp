@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "interceptor/calls/display_lists.h"
+#include "interceptor/calls/queries.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/guard/guards.h"
@@ -43,38 +44,6 @@ std::string programReason(const DrawFacts& facts) {
   return facts.linked->reason;
 }
 
-// Queries count what replays draw; their end and start again is not the program's query any more.
-bool queryActive(const guard::ContextFacts& facts) {
-  struct Target {
-    GLenum target;
-    bool exists;
-  };
-  const std::array targets = {
-      Target{GL_SAMPLES_PASSED, !facts.es},
-      Target{GL_ANY_SAMPLES_PASSED, facts.atLeast(33, 30)},
-      Target{GL_ANY_SAMPLES_PASSED_CONSERVATIVE, facts.atLeast(43, 30)},
-      Target{GL_PRIMITIVES_GENERATED, facts.atLeast(30, 32)},
-      Target{GL_VERTICES_SUBMITTED, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_PRIMITIVES_SUBMITTED, facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_VERTEX_SHADER_INVOCATIONS,
-             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_GEOMETRY_SHADER_INVOCATIONS,
-             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_FRAGMENT_SHADER_INVOCATIONS,
-             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_CLIPPING_INPUT_PRIMITIVES,
-             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-      Target{GL_CLIPPING_OUTPUT_PRIMITIVES,
-             facts.atLeast(46, 0) || facts.has("GL_ARB_pipeline_statistics_query")},
-  };
-  for (const Target& entry : targets) {
-    GLint current = 0;
-    if (entry.exists) gl().GetQueryiv(entry.target, GL_CURRENT_QUERY, &current);
-    if (current != 0) return true;
-  }
-  return false;
-}
-
 bool feedbackUnpausable(const guard::ContextFacts& facts) {
   if (facts.pausesTransformFeedback() || !facts.atLeast(30, 0)) return false;
   GLint active = 0;  // before OpenGL 4.0 only the buffer binding tells
@@ -96,21 +65,18 @@ std::string replayReason(const calls::DrawCall& call, const guard::ContextFacts&
     if (integer(GL_RENDER_MODE) != GL_RENDER)
       return "the draw is made for selection or feedback and writes no pixels";
   }
-  if (calls::conditionalRenderActive())
-    return "the draw is made under a condition (glBeginConditionalRender), which cannot be replayed yet";
-  if (queryActive(facts)) return "a query that counts what is drawn is active, which a replay would change";
+  if (!calls::conditionHolds())
+    return "the draw's condition (glBeginConditionalRender) does not hold: it draws nothing";
   if (feedbackUnpausable(facts))
     return "transform feedback buffers are bound, and this driver cannot pause the feedback";
   return "";
 }
 
-// Components of a vertex that a replay can capture by transform feedback: none where that would count into a
-// query of the program, or where nobody knows what primitives the call draws.
+// Components of a vertex that a replay can capture by transform feedback: none where nobody knows what
+// primitives the call draws.
 int feedbackComponents(const calls::DrawCall& call, const guard::ContextFacts& facts) {
   if (!facts.transformFeedback() || call.mode == calls::kNoMode) return 0;
-  GLint counting = 0;
-  gl().GetQueryiv(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, GL_CURRENT_QUERY, &counting);
-  return counting != 0 ? 0 : integer(GL_MAX_TRANSFORM_FEEDBACK_INTERLEAVED_COMPONENTS);
+  return integer(GL_MAX_TRANSFORM_FEEDBACK_INTERLEAVED_COMPONENTS);
 }
 
 bool isDispatch(const calls::DrawCall& call) {

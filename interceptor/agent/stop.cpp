@@ -6,6 +6,7 @@
 #include <set>
 
 #include "interceptor/agent/executed.h"
+#include "interceptor/agent/query_pause.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/state_digest.h"
 #include "interceptor/replay/writable.h"
@@ -150,6 +151,7 @@ OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::Sh
     return guard::unsupported(
         "this driver has no storage buffers (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object)");
   }
+  const QueryPause queries(facts().context);
   const guard::ProgramGuard program(facts().context);
   const guard::FramebufferGuard framebuffers(facts().context);
   std::optional<guard::StorageBindingGuard> storage;

@@ -36,10 +36,8 @@ std::unordered_map<std::uint64_t, ShareGroup>& groups() {
   return *all;
 }
 
-// The context of this thread in which glBeginConditionalRender was called last; OpenGL cannot be asked.
-thread_local const dispatch::Context* conditional = nullptr;
-
-// The same of the last glBeginTransformFeedback.
+// The context of this thread in which glBeginTransformFeedback was called last, and what it was given; OpenGL
+// cannot be asked.
 struct BegunFeedback {
   const dispatch::Context* context = nullptr;
   GLenum mode = GL_POINTS;
@@ -112,10 +110,6 @@ std::shared_ptr<const LinkedProgram> linkedProgram(GLuint program) {
   LinkedProgram unknown;
   unknown.reason = "the program was linked where shadestep did not see it";
   return std::make_shared<LinkedProgram>(std::move(unknown));
-}
-
-bool conditionalRenderActive() {
-  return conditional != nullptr && conditional == dispatch::currentContext();
 }
 
 GLenum feedbackMode() {
@@ -211,13 +205,6 @@ void after_glCreateShaderProgramv(GLuint result, GLenum type, GLsizei count, con
   linked.shaders.push_back(
       {0, type, std::make_shared<CompiledSource>(CompiledSource{strings(count, text, nullptr), ""})});
   setLinked(result, std::move(linked));
-}
-
-void after_glBeginConditionalRender(GLuint, GLenum) {
-  conditional = dispatch::currentContext();
-}
-void after_glEndConditionalRender() {
-  conditional = nullptr;
 }
 
 void after_glBeginTransformFeedback(GLenum mode) {

@@ -38,9 +38,6 @@ struct LinkedProgram {
 // Of a program of the current context's share group. Never null.
 std::shared_ptr<const LinkedProgram> linkedProgram(GLuint program);
 
-// Whether the program draws under a condition (glBeginConditionalRender) that the driver may find false.
-bool conditionalRenderActive();
-
 // What the program's last glBeginTransformFeedback in the current context was given; OpenGL cannot be asked.
 GLenum feedbackMode();
 

@@ -1,6 +1,8 @@
 // Bad input: the exit codes of docs/cli.md, one clear sentence, no process and no half-written file left.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -99,6 +101,11 @@ INSTANTIATE_TEST_SUITE_P(
              2,
              "--vertex N"},
         Case{"FixedFunction", {"debug", "--pixel", "1,1"}, {binary("programs/fixed-function")}, 4, "fixed"},
+        Case{"NoSuchFolderForTheImage",
+             {"debug", "--at", kInLoop, "--print", "dst", "--image", "/proc/nowhere/dst.png"},
+             kRaycaster,
+             2,
+             "cannot make the directory '/proc/nowhere'"},
         Case{"EndsEarly", {"debug", "--pixel", "1,1"}, {binary("programs/no-draw")}, 3, "no draw"}),
     [](const auto& given) { return given.param.name; });
 
@@ -107,6 +114,23 @@ TEST(EndToEnd, ACrashBeforeTheDrawIsSaidAsSuch) {
   const Finished finished =
       scratch.shadestep({"debug", "--pixel", "1,1"}, {binary("programs/crash"), "before"});
   expectRefusal(finished, 5, "signal 11");
+}
+
+// The loader ignores LD_PRELOAD there: said, with where to find out why, and the program has run as ever.
+TEST(EndToEnd, AProgramThatCannotBePreloadedIsSaidAsSuch) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can make another user's setuid program";
+  const Scratch scratch, programs;
+  const std::filesystem::path program = programs.path() / "setuid";
+  std::filesystem::copy_file(binary("programs/no-gl"), program);
+  constexpr uid_t kNobody = 65534;
+  ASSERT_EQ(chown(program.c_str(), kNobody, kNobody), 0);
+  ASSERT_EQ(chmod(program.c_str(), 04755), 0);
+  const Finished debugged = scratch.shadestep({"debug", "--pixel", "1,1"}, {program.string()});
+  EXPECT_EQ(debugged.status, 5) << debugged.err;
+  EXPECT_EQ(debugged.out, "no OpenGL here\n");
+  EXPECT_THAT(debugged.err, HasSubstr("without loading the interceptor; 'shadestep doctor -- "));
+  EXPECT_THAT(debugged.err, testing::Not(HasSubstr("before frame")));
+  EXPECT_THAT(scratch.shadestep({"doctor"}, {program.string()}).out, HasSubstr("setuid"));
 }
 
 TEST(EndToEnd, NoProcessIsLeftBehind) {

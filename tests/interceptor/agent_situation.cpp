@@ -1,9 +1,8 @@
 // agent_situation NAME: one draw in a situation that a debugger must tell from an ordinary one, or must leave
 // as it was. Exits with 0 if afterwards all is as it should be without a debugger. Nothing here knows of the
 // debugger.
-#include "agent_scene.h"
+#include "agent_situation.h"
 
-#include <GL/osmesa.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,47 +11,16 @@
 
 namespace {
 
-constexpr const char* kVertex = "#version 330 compatibility\nvoid main() { gl_Position = gl_Vertex; }\n";
-constexpr const char* kFragment =
-    "#version 330 compatibility\nout vec4 color;\nvoid main() { color = vec4(0.5); }\n";
-
-constexpr GLfloat kCorners[] = {-1, -1, 3, -1, -1, 3};
-
-// Newer than what libOSMesa exports by name.
-template <class Function>
-Function opened(const char* name) {
-  return reinterpret_cast<Function>(OSMesaGetProcAddress(name));
-}
-
-GLuint link(const char* vertex, const std::vector<const char*>& fragments) {
-  const GLuint program = glCreateProgram();
-  glAttachShader(program, scene::compile(GL_VERTEX_SHADER, {vertex}));
-  for (const char* text : fragments) glAttachShader(program, scene::compile(GL_FRAGMENT_SHADER, {text}));
-  glLinkProgram(program);
-  return program;
-}
-
-void draw() {
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-bool drawnEverywhere() {
-  std::vector<GLubyte> pixels(static_cast<std::size_t>(scene::kWidth) * scene::kHeight * 4);
-  glReadPixels(0, 0, scene::kWidth, scene::kHeight, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-  for (const GLubyte value : pixels) {
-    if (value != 127 && value != 128) return false;
-  }
-  return true;
-}
+using namespace situation;
 
 int ordinary() {
-  glUseProgram(link(kVertex, {kFragment}));
+  glUseProgram(linked(kVertex, {kFragment}));
   draw();
   return drawnEverywhere() ? 0 : 1;
 }
 
 int deletedProgram() {
-  const GLuint program = link(kVertex, {kFragment});
+  const GLuint program = linked(kVertex, {kFragment});
   glUseProgram(program);
   glDeleteProgram(program);
   draw();
@@ -66,7 +34,7 @@ int fixedFunction() {
 }
 
 int immediateMode() {
-  glUseProgram(link(kVertex, {kFragment}));
+  glUseProgram(linked(kVertex, {kFragment}));
   glBegin(GL_TRIANGLES);
   for (int i = 0; i < 3; ++i) glVertex2fv(kCorners + 2 * i);
   glEnd();
@@ -74,7 +42,7 @@ int immediateMode() {
 }
 
 int displayList() {
-  glUseProgram(link(kVertex, {kFragment}));
+  glUseProgram(linked(kVertex, {kFragment}));
   const GLuint list = glGenLists(1);
   glNewList(list, GL_COMPILE);
   draw();
@@ -84,32 +52,8 @@ int displayList() {
   return drawnEverywhere() ? 0 : 1;
 }
 
-int activeQuery() {
-  glUseProgram(link(kVertex, {kFragment}));
-  GLuint query = 0;
-  glGenQueries(1, &query);
-  glBeginQuery(GL_SAMPLES_PASSED, query);
-  draw();
-  glEndQuery(GL_SAMPLES_PASSED);
-  GLuint samples = 0;
-  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &samples);
-  return samples == scene::kWidth * scene::kHeight ? 0 : 1;
-}
-
-int condition() {
-  glUseProgram(link(kVertex, {kFragment}));
-  GLuint query = 0;
-  glGenQueries(1, &query);
-  glBeginQuery(GL_SAMPLES_PASSED, query);
-  glEndQuery(GL_SAMPLES_PASSED);
-  glBeginConditionalRender(query, GL_QUERY_WAIT);
-  draw();
-  glEndConditionalRender();
-  return drawnEverywhere() ? 1 : 0;
-}
-
 int noRasterizer() {
-  glUseProgram(link(kVertex, {kFragment}));
+  glUseProgram(linked(kVertex, {kFragment}));
   glEnable(GL_RASTERIZER_DISCARD);
   draw();
   return drawnEverywhere() ? 1 : 0;
@@ -163,9 +107,9 @@ int separateStages() {
 }
 
 int severalShaders() {
-  glUseProgram(link(kVertex, {"#version 330 compatibility\nvec4 halves() { return vec4(0.5); }\n",
-                              "#version 330 compatibility\nvec4 halves();\nout vec4 color;\n"
-                              "void main() { color = halves(); }\n"}));
+  glUseProgram(linked(kVertex, {"#version 330 compatibility\nvec4 halves() { return vec4(0.5); }\n",
+                                "#version 330 compatibility\nvec4 halves();\nout vec4 color;\n"
+                                "void main() { color = halves(); }\n"}));
   draw();
   return drawnEverywhere() ? 0 : 1;
 }
@@ -207,11 +151,11 @@ int feedback() {
 
 int subroutines() {
   const GLuint program =
-      link(kVertex,
-           {"#version 400 compatibility\nsubroutine float Shade();\n"
-            "subroutine(Shade) float quarter() { return 0.25; }\n"
-            "subroutine(Shade) float half_of_it() { return 0.5; }\n"
-            "subroutine uniform Shade shade;\nout vec4 color;\nvoid main() { color = vec4(shade()); }\n"});
+      linked(kVertex,
+             {"#version 400 compatibility\nsubroutine float Shade();\n"
+              "subroutine(Shade) float quarter() { return 0.25; }\n"
+              "subroutine(Shade) float half_of_it() { return 0.5; }\n"
+              "subroutine uniform Shade shade;\nout vec4 color;\nvoid main() { color = vec4(shade()); }\n"});
   glUseProgram(program);
   const auto index = opened<PFNGLGETSUBROUTINEINDEXPROC>("glGetSubroutineIndex");
   const auto choose = opened<PFNGLUNIFORMSUBROUTINESUIVPROC>("glUniformSubroutinesuiv");
@@ -226,9 +170,9 @@ int subroutines() {
 
 // A storage block where a debugger would like to put its own.
 int storageBlock() {
-  const GLuint program =
-      link(kVertex, {"#version 430 compatibility\nlayout(std430) readonly buffer Own { float half_of_it; };\n"
-                     "out vec4 color;\nvoid main() { color = vec4(half_of_it); }\n"});
+  const GLuint program = linked(
+      kVertex, {"#version 430 compatibility\nlayout(std430) readonly buffer Own { float half_of_it; };\n"
+                "out vec4 color;\nvoid main() { color = vec4(half_of_it); }\n"});
   GLint bindings = 0;
   glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
   const auto last = static_cast<GLuint>(bindings) - 1;
@@ -294,7 +238,7 @@ bool allEqual(GLuint buffer, std::size_t words, GLuint value) {
 int memory() {
   const auto bind_image = opened<PFNGLBINDIMAGETEXTUREPROC>("glBindImageTexture");
   const auto barrier = opened<PFNGLMEMORYBARRIERPROC>("glMemoryBarrier");
-  glUseProgram(link(kCountingVertex, {kCountingFragment}));
+  glUseProgram(linked(kCountingVertex, {kCountingFragment}));
 
   const GLuint cells = filledBuffer(GL_SHADER_STORAGE_BUFFER, kPixels, 7);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, cells);
@@ -344,9 +288,9 @@ int memory() {
 
 // Never twice the same.
 int clockInMemory() {
-  glUseProgram(link(kVertex, {"#version 430 compatibility\n#extension GL_ARB_shader_clock : require\n"
-                              "layout(std430, binding = 0) buffer Stamp { uint stamp; };\nout vec4 color;\n"
-                              "void main() { stamp = clock2x32ARB().x; color = vec4(0.5); }\n"}));
+  glUseProgram(linked(kVertex, {"#version 430 compatibility\n#extension GL_ARB_shader_clock : require\n"
+                                "layout(std430, binding = 0) buffer Stamp { uint stamp; };\nout vec4 color;\n"
+                                "void main() { stamp = clock2x32ARB().x; color = vec4(0.5); }\n"}));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, filledBuffer(GL_SHADER_STORAGE_BUFFER, 1, 0));
   draw();
   return drawnEverywhere() ? 0 : 1;
@@ -355,9 +299,9 @@ int clockInMemory() {
 // What a debugger cannot copy it must not touch.
 int multisampledImage() {
   glUseProgram(
-      link(kVertex, {"#version 430 compatibility\n"
-                     "layout(rgba8, binding = 0) writeonly uniform image2DMS samples;\nout vec4 color;\n"
-                     "void main() { imageStore(samples, ivec2(0), 1, vec4(1.0)); color = vec4(0.5); }\n"}));
+      linked(kVertex, {"#version 430 compatibility\n"
+                       "layout(rgba8, binding = 0) writeonly uniform image2DMS samples;\nout vec4 color;\n"
+                       "void main() { imageStore(samples, ivec2(0), 1, vec4(1.0)); color = vec4(0.5); }\n"}));
   GLuint texture = 0;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
@@ -374,7 +318,7 @@ void GLAPIENTRY onMessage(GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar*
 }
 
 int debugMessages() {
-  glUseProgram(link(kVertex, {kFragment}));
+  glUseProgram(linked(kVertex, {kFragment}));
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glDebugMessageCallback(onMessage, nullptr);
@@ -386,7 +330,7 @@ int debugMessages() {
 
 // The child draws on with what it has of its parent; the parent's counts are its own.
 int forked() {
-  glUseProgram(link(kVertex, {kFragment}));
+  glUseProgram(linked(kVertex, {kFragment}));
   const pid_t child = fork();
   if (child == 0) {
     draw();
@@ -408,8 +352,10 @@ int main(int argc, char** argv) {
       {"fixed-function", fixedFunction},
       {"immediate-mode", immediateMode},
       {"display-list", displayList},
-      {"query", activeQuery},
-      {"condition", condition},
+      {"queries", activeQueries},
+      {"queried-condition", queriedCondition},
+      {"condition-holds", [] { return condition(true); }},
+      {"condition", [] { return condition(false); }},
       {"no-rasterizer", noRasterizer},
       {"pipeline", pipeline},
       {"separate-stages", separateStages},
@@ -423,8 +369,8 @@ int main(int argc, char** argv) {
       {"debug-messages", debugMessages},
       {"forked", forked},
   };
-  const auto situation = situations.find(argc > 1 ? argv[1] : "");
-  if (situation == situations.end()) return 2;
+  const auto found = situations.find(argc > 1 ? argv[1] : "");
+  if (found == situations.end()) return 2;
   alarm(120);  // a hang is a failure too
   const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
   OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
@@ -432,5 +378,5 @@ int main(int argc, char** argv) {
   if (!OSMesaMakeCurrent(context, buffer.data(), GL_UNSIGNED_BYTE, scene::kWidth, scene::kHeight)) return 5;
   glEnableClientState(GL_VERTEX_ARRAY);
   glVertexPointer(2, GL_FLOAT, 0, kCorners);
-  return situation->second();
+  return found->second();
 }

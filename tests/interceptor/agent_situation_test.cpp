@@ -7,10 +7,12 @@ namespace agent_test {
 namespace {
 
 TEST(Situations, goWellWithoutADebugger) {
-  for (const char* name : {"ordinary", "deleted-program", "fixed-function", "immediate-mode", "display-list",
-                           "query", "condition", "no-rasterizer", "pipeline", "separate-stages",
-                           "several-shaders", "feedback", "subroutines", "storage-block", "memory",
-                           "clock-in-memory", "multisampled-image", "debug-messages", "forked"}) {
+  for (const char* name : {"ordinary",        "deleted-program", "fixed-function",     "immediate-mode",
+                           "display-list",    "queries",         "queried-condition",  "condition-holds",
+                           "condition",       "no-rasterizer",   "pipeline",           "separate-stages",
+                           "several-shaders", "feedback",        "subroutines",        "storage-block",
+                           "memory",          "clock-in-memory", "multisampled-image", "debug-messages",
+                           "forked"}) {
     Scene scene({SITUATION, name}, {});
     EXPECT_EQ(scene.status(), 0) << name;
   }
@@ -72,7 +74,7 @@ TEST_P(Refusals, sayWhyAndLeaveTheProgramAlone) {
 INSTANTIATE_TEST_SUITE_P(Situations, Refusals,
                          testing::Values(Refused{"deleted-program", "deleted while in use"},
                                          Refused{"fixed-function", "no GLSL program"},
-                                         Refused{"query", "query"}, Refused{"condition", "condition"},
+                                         Refused{"condition", "does not hold"},
                                          Refused{"no-rasterizer", "GL_RASTERIZER_DISCARD"}),
                          [](const auto& one) {
                            std::string name = one.param.situation;
@@ -84,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Situations, Refusals,
 // ----------------------------------------------------------------------------------------------
 
 // Captures what the shader is about to write, in every pixel.
-void expectHalfEverywhere(Session& session, const std::string& expression) {
-  session.resumeTo(0, 0);
+void expectHalfEverywhere(Session& session, const std::string& expression, std::uint64_t at_draw = 0) {
+  session.resumeTo(0, at_draw);
   ASSERT_NE(session.receive(), nullptr);
   const wire::DrawT draw = session.describe();
   wire::PrepareT prepare;
@@ -111,6 +113,32 @@ void expectHalfEverywhere(Session& session, const std::string& expression) {
 
 TEST(Situations, immediateModeIsReplayed) {
   Session session(SITUATION, "immediate-mode", "");
+  expectHalfEverywhere(session, "0.5");
+  end(session);
+}
+
+TEST(Situations, activeQueriesCountWhatTheProgramDraws) {
+  Session session(SITUATION, "queries", "");
+  expectHalfEverywhere(session, "0.5", 1);
+  end(session);
+}
+
+TEST(Situations, conditionsStandOnAllThatAQueryCounted) {
+  Session session(SITUATION, "queried-condition", "");
+  session.resumeTo(0, 1);
+  ASSERT_NE(session.receive(), nullptr);
+  wire::PrepareT prepare;
+  prepare.text = fragmentText(session.describe());
+  prepare.user_outputs = {"color"};
+  wire::ExecuteT execute;
+  execute.handle = session.prepare(prepare);
+  execute.compare = true;
+  EXPECT_EQ(session.execute(execute).differing, 0U);
+  end(session);
+}
+
+TEST(Situations, drawsWhoseConditionHoldsAreReplayed) {
+  Session session(SITUATION, "condition-holds", "");
   expectHalfEverywhere(session, "0.5");
   end(session);
 }

@@ -8,7 +8,7 @@ target_link_libraries(agent-scene-osmesa PRIVATE PkgConfig::OSMESA)
 add_executable(agent-scene-egl agent_scene_egl.cpp)
 target_link_libraries(agent-scene-egl PRIVATE PkgConfig::GL)
 
-add_executable(agent-situation agent_situation.cpp)
+add_executable(agent-situation agent_situation.cpp agent_situation_queries.cpp)
 target_link_libraries(agent-situation PRIVATE PkgConfig::OSMESA)
 
 add_executable(agent-target agent_target.cpp)

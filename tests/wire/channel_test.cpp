@@ -1,8 +1,11 @@
 // The connection between agent and session: whole messages, descriptors, and every kind of bad input.
 #include "wire/channel.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -120,6 +123,33 @@ TEST(Channel, RefusesATruncatedMessageBehindAValidHeader) {
       EXPECT_EQ(received, Received::malformed) << "cut to " << length << " of " << whole.size();
     }
   }
+}
+
+TEST(SharedMemory, IsNotTakenWhereTheOtherSideCouldCutIt) {
+  Descriptor file(memfd_create("test", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  ASSERT_EQ(ftruncate(file.get(), 4096), 0);
+  EXPECT_FALSE(SharedMemory::map(Descriptor(dup(file.get()))));
+  ASSERT_EQ(fcntl(file.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW), 0);
+  EXPECT_TRUE(SharedMemory::map(Descriptor(dup(file.get()))));
+
+  const SharedMemory ours = SharedMemory::create("test", 4096);
+  EXPECT_NE(ftruncate(ours.descriptor(), 1), 0);
+}
+
+TEST(Listener, RefusesAnotherUser) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
+  auto listener = Listener::create();
+  ASSERT_TRUE(listener);
+  const pid_t other = fork();
+  if (other == 0) {
+    constexpr uid_t kNobody = 65534;
+    const bool taken = setuid(kNobody) == 0 && Channel::connect(listener->name()).open();
+    _exit(taken ? 1 : 0);
+  }
+  EXPECT_FALSE(listener->accept(10'000).open());
+  int status = -1;
+  ASSERT_EQ(waitpid(other, &status, 0), other);
+  EXPECT_EQ(status, 0) << "the other user's side took us for its own debugger";
 }
 
 TEST(Listener, AcceptsItsOwnUser) {
