@@ -22,6 +22,7 @@ session::LaunchOptions Common::launchOptions() const {
   options.command = program;
   options.program_output_to_stderr = json;
   options.ptrace = !no_ptrace;
+  options.follow = !no_follow;
   options.timeout = std::chrono::seconds(timeout);
   return options;
 }
@@ -48,6 +49,8 @@ void addCommonOptions(CLI::App& app, Common& common) {
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--no-ptrace", common.no_ptrace,
                "do not watch the program by ptrace (it is told how it ended, not where it crashed)");
+  app.add_flag("--no-follow", common.no_follow,
+               "only the process that is started here, not those that it starts");
   app.add_flag("--quiet", common.quiet, "no progress, no remarks");
 }
 

@@ -26,6 +26,7 @@ struct Common {
   bool json = false;
   bool quiet = false;
   bool no_ptrace = false;
+  bool no_follow = false;
   std::string out = ".";  // directory for files without a path of their own
   int timeout = 0;        // seconds; 0 = none
 

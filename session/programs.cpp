@@ -76,6 +76,7 @@ Programs::Programs(const LaunchOptions& options, const std::string& interceptor)
       process_(Process::launch(options.command, preloadEnvironment(options, interceptor, listener_.name()),
                                options.program_output_to_stderr, options.working_directory)),
       interrupts_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  follow_ = options.follow;
   if (options.ptrace) tracer_.emplace();
 }
 
@@ -107,7 +108,8 @@ void Programs::greet() {
   }
   peer->memory = wire::SharedMemory::map(std::move(packet.bulk));
   if (!peer->memory || peer->memory.size() < sizeof(wire::AgentMemory)) return;
-  peer->pid = processOf(peer->channel);  // the kernel's word, not the message's
+  peer->pid = processOf(peer->channel);                 // the kernel's word, not the message's
+  if (!follow_ && peer->pid != process_.pid()) return;  // it runs on without a debugger
   peer->program = hello->program() != nullptr ? hello->program()->str() : "";
   last_.connected = true;
   if (tracer_) tracer_->trace(peer->pid, peer->status().last_call.load());

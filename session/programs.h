@@ -95,6 +95,7 @@ class Programs {
   wire::Listener listener_;
   std::string name_;
   Process process_;
+  bool follow_ = true;  // processes that the program starts
   std::vector<std::unique_ptr<Peer>> peers_;
   Peer* stopped_ = nullptr;
   wire::ResumeT policy_;

@@ -43,6 +43,7 @@ struct LaunchOptions {
   // Watch the program by ptrace, so that a crash is told with its thread; where that is not permitted it goes
   // without.
   bool ptrace = true;
+  bool follow = true;  // debug processes that the program starts, too
   std::chrono::seconds timeout{0};  // for the program to reach what is asked for; 0 = no limit
 };
 
