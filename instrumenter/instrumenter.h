@@ -32,6 +32,8 @@ struct Target {
   bool storage_buffers = false;  // GL_ARB_shader_storage_buffer_object usable in this stage
   bool bit_encoding = false;     // floatBitsToInt available or enabled by GL_ARB_shader_bit_encoding
   bool shader_clock = false;     // GL_ARB_shader_clock
+  bool realtime_clock = false;   // GL_EXT_shader_realtime_clock
+  bool query_lod = false;        // GL_ARB_texture_query_lod
   bool es_draw_buffers = false;  // GL_EXT_draw_buffers: several outputs in GLSL ES 1.00
   int max_draw_buffers = 8;
   int used_draw_buffers = 1;    // colour outputs that the program's own framebuffer uses

@@ -138,8 +138,8 @@ void count(Draft& draft, Conditions& conditions, const std::vector<TextureFetch>
 
 namespace {
 
-// A loop goes on from the start of a body until its condition fails or a `break` leaves it; other jumps out of it do
-// not come to what stands behind it. Where it still goes on there, the driver has ended it.
+// A loop goes on from the start of a body until its condition fails or a `break` leaves it; other jumps out
+// of it do not come to what stands behind it. Where it still goes on there, the driver has ended it.
 void countCuts(Draft& draft, Conditions& conditions, StatementId loop, const std::string& cut) {
   const Shader& shader = draft.shader();
   const std::string goes_on = draft.name("goes_on" + std::to_string(loop));
@@ -147,7 +147,8 @@ void countCuts(Draft& draft, Conditions& conditions, StatementId loop, const std
   putAround(draft.edits, shader, loop, goes_on + " = false;", "if (" + goes_on + ") " + cut + "++;");
   putAtBodyStart(draft.edits, shader, statementAt(shader, loop).children.back(), goes_on + " = true;");
   conditions.putAfter(draft.edits, loop, goes_on + " = " + conditions.outcome(loop));
-  for (const StatementId jump : breaksOf(shader, loop)) putAround(draft.edits, shader, jump, goes_on + " = false;", "");
+  for (const StatementId jump : breaksOf(shader, loop))
+    putAround(draft.edits, shader, jump, goes_on + " = false;", "");
 }
 
 }  // namespace
@@ -202,28 +203,37 @@ Result<AttachmentShader> instrumentCount(const Shader& shader, const std::vector
   return measures.finish();
 }
 
+std::optional<ShaderClock> shaderClock(const Target& target) {
+  if (target.shader_clock) return ShaderClock{"GL_ARB_shader_clock", "clock2x32ARB"};
+  if (target.realtime_clock) return ShaderClock{"GL_EXT_shader_realtime_clock", "clockRealtime2x32EXT"};
+  return {};
+}
+
 Result<AttachmentShader> instrumentClock(const Shader& shader, const Target& target) {
   Draft draft(shader);
   Measures measures(draft, target);
   if (draft.es()) return Failure{"GLSL ES has no shader clock; use another method of profiling."};
-  if (!target.shader_clock)
-    return Failure{"This driver has no GL_ARB_shader_clock; use another method of profiling."};
-  draft.require("GL_ARB_shader_clock");
-  const std::string start = draft.name("start"), end = draft.name("end");
+  const std::optional<ShaderClock> clock = shaderClock(target);
+  if (!clock)
+    return Failure{
+        "This driver has neither GL_ARB_shader_clock nor GL_EXT_shader_realtime_clock; use another method of "
+        "profiling."};
+  draft.require(clock->extension);
+  const std::string start = draft.name("start"), end = draft.name("end"), now = clock->function + "()";
   // Below 1.30 there is no uint: the low words differ by the ticks modulo 2^32, which an int holds as well.
   if (shader.version < 130) {
     draft.declare("int " + start + ", " + end + ";");
     measures.add("low", end + " - " + start);
     measures.add("high", "0");
     measures.add("start_high", "0");
-    return measures.finish("  " + start + " = int(clock2x32ARB().x);\n",
-                           "  " + end + " = int(clock2x32ARB().x);\n");
+    return measures.finish("  " + start + " = int(" + now + ".x);\n",
+                           "  " + end + " = int(" + now + ".x);\n");
   }
   draft.declare(draft.highp() + "uvec2 " + start + ", " + end + ";");
   measures.add("low", end + ".x - " + start + ".x");
   measures.add("high", end + ".y - " + start + ".y - (" + end + ".x < " + start + ".x ? 1u : 0u)");
   measures.add("start_high", start + ".y");
-  return measures.finish("  " + start + " = clock2x32ARB();\n", "  " + end + " = clock2x32ARB();\n");
+  return measures.finish("  " + start + " = " + now + ";\n", "  " + end + " = " + now + ";\n");
 }
 
 }  // namespace shadestep::instrumenter

@@ -2,6 +2,7 @@
 // thread's work by itself. Text to text, as instrumenter.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,15 @@ std::string nameOf(const Counted&);  // "runs.12": the name of its field
 // evaluated (loops: each time). Ask in batches that fit the draw buffers.
 Result<AttachmentShader> instrumentCount(const frontend::Shader&, const std::vector<Counted>&, const Target&);
 
-// Uint fields "low", "high": shader clock ticks from start to end of the thread modulo 2^64
-// (GL_ARB_shader_clock), and "start_high": the upper word of the reading at the start (0 below GLSL 1.30).
+// The clock that shaders can read: GL_ARB_shader_clock, or GL_EXT_shader_realtime_clock where that is
+// missing.
+struct ShaderClock {
+  std::string extension, function;  // the function: uvec2 of the low and the high word
+};
+std::optional<ShaderClock> shaderClock(const Target&);
+
+// Uint fields "low", "high": ticks of the shader clock from start to end of the thread modulo 2^64, and
+// "start_high": the upper word of the reading at the start (0 below GLSL 1.30).
 Result<AttachmentShader> instrumentClock(const frontend::Shader&, const Target&);
 
 // Every input of the fragment becomes a variable that the new main sets from uniforms (thesis 7.2.1).

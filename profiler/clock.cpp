@@ -1,4 +1,4 @@
-// Method `clock`: GL_ARB_shader_clock around each thread, in the program's own draw.
+// Method `clock`: the shader clock around each thread, in the program's own draw.
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -47,10 +47,11 @@ std::vector<double> ticksOf(const session::Captured& captured, const CostMap& ma
   return ticks;
 }
 
-void explain(Profile& profile, const Readings& readings) {
-  profile.notes.push_back(
-      "Ticks of the driver's shader clock from the start to the end of each thread, median of " +
-      std::to_string(profile.passes) + " passes, each scaled to the speed of the median pass.");
+void explain(Profile& profile, const instrumenter::ShaderClock& clock, const Readings& readings) {
+  profile.notes.push_back("Ticks of the driver's shader clock (" + clock.extension +
+                          ") from the start to the end of each thread, median of " +
+                          std::to_string(profile.passes) +
+                          " passes, each scaled to the speed of the median pass.");
   if (profile.grain == Grain{})
     profile.notes.push_back("No threads were seen to share a clock.");
   else
@@ -69,11 +70,14 @@ void explain(Profile& profile, const Readings& readings) {
 
 Profile profileClock(session::Session& session, const ProfileOptions& options) {
   const Stopwatch stopwatch;
-  if (!session.target().shader_clock)
-    throw session::Error(session::Outcome::cannot_debug,
-                         "the driver (" + session.facts().renderer +
-                             ") has no GL_ARB_shader_clock; use --method isolate or --method count");
-  const ClockTest test = testShaderClock(session);
+  const std::optional<instrumenter::ShaderClock> clock = instrumenter::shaderClock(session.target());
+  if (!clock)
+    throw session::Error(
+        session::Outcome::cannot_debug,
+        "the driver (" + session.facts().renderer +
+            ") has neither GL_ARB_shader_clock nor GL_EXT_shader_realtime_clock; use --method "
+            "isolate or --method count");
+  const ClockTest test = testShaderClock(session, *clock);
   if (!test.trusted) throw session::Error(session::Outcome::cannot_debug, test.reason);
 
   Profile profile;
@@ -118,7 +122,7 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
     describeLoops(session, profile);
   }
   if (options.progress) options.progress(1);
-  explain(profile, readings);
+  explain(profile, *clock, readings);
   summarize(profile);
   profile.seconds = stopwatch.seconds();
   return profile;

@@ -14,19 +14,20 @@ constexpr int kWork = 200;  // steps; enough to dwarf the reading of the clock, 
 
 // A fragment shader of known work: a chain of dependent steps that no compiler can shorten, between two
 // readings.
-instrumenter::AttachmentShader knownWork(const frontend::Shader& shader) {
+instrumenter::AttachmentShader knownWork(const frontend::Shader& shader,
+                                         const instrumenter::ShaderClock& clock) {
   std::ostringstream text;
   text << "#version " << std::max(shader.version, 130);
   if (shader.version >= 150 && !shader.profile.empty()) text << " " << shader.profile;
-  text << R"(
-#extension GL_ARB_shader_clock : require
+  text << "\n#extension " << clock.extension << " : require\n#define SD_NOW " << clock.function << "()"
+       << R"(
 uniform int sd_work;
 out uvec4 sd_capture0;
 void main() {
-  uvec2 start = clock2x32ARB();
+  uvec2 start = SD_NOW;
   float x = 0.3;
   for (int i = 0; i < sd_work; ++i) x = 3.7 * x * (1.0 - x);
-  uvec2 end = clock2x32ARB();
+  uvec2 end = SD_NOW;
   sd_capture0 = uvec4(1u, end.x - start.x, end.y - start.y - (end.x < start.x ? 1u : 0u), uint(x * 1000.0));
 }
 )";
@@ -155,8 +156,8 @@ Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
   return result;
 }
 
-ClockTest testShaderClock(session::Session& session) {
-  const instrumenter::AttachmentShader shader = knownWork(session.shader(session::Stage::fragment));
+ClockTest testShaderClock(session::Session& session, const instrumenter::ShaderClock& clock) {
+  const instrumenter::AttachmentShader shader = knownWork(session.shader(session::Stage::fragment), clock);
   const session::Prepared prepared = session.prepare(shader);
   ticksFor(session, prepared, shader.layout, kWork);  // the driver compiles
   const double once = ticksFor(session, prepared, shader.layout, kWork);

@@ -1,4 +1,4 @@
-// Reading GL_ARB_shader_clock: the difference of two readings, and whether the clock deserves trust.
+// Reading the shader clock: the difference of two readings, and whether the clock deserves trust.
 // Internal.
 #pragma once
 
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "instrumenter/measures.h"
 #include "profiler/cost_map.h"
 #include "profiler/counts.h"
 #include "session/session.h"
@@ -51,6 +52,6 @@ struct ClockTest {
 
 // Runs N and 2N steps of known work in place of the current draw's fragment shader, and looks whether the
 // clock runs in proportion. Throws session::Error if the draw cannot be captured.
-ClockTest testShaderClock(session::Session&);
+ClockTest testShaderClock(session::Session&, const instrumenter::ShaderClock&);
 
 }  // namespace shadestep::profiler

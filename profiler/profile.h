@@ -2,7 +2,8 @@
 // rank.
 //
 //   count    statements executed per thread: exact and repeatable, blind to what a statement costs
-//   clock    GL_ARB_shader_clock ticks from the start to the end of each thread, in place
+//   clock    ticks of the shader clock (GL_ARB_shader_clock, else
+//            GL_EXT_shader_realtime_clock) from the start to the end of each thread, in place
 //   isolate  Strengert 2010, 7.2.1: the thread of one pixel drawn n x n times on its own, timed on the CPU's
 //   clock
 //
@@ -18,6 +19,8 @@
 
 #include "profiler/cost_map.h"
 #include "profiler/counts.h"
+#include "profiler/region.h"
+#include "profiler/texture_access.h"
 #include "session/loops.h"
 #include "session/session.h"
 
@@ -25,12 +28,6 @@ namespace shadestep::profiler {
 
 enum class Method { count, clock, isolate };
 const char* methodName(Method);
-
-// Pixels, lower left corner and size; gl_FragCoord's origin.
-struct Region {
-  int x = 0, y = 0, width = 0, height = 0;
-  bool contains(int px, int py) const { return px >= x && py >= y && px < x + width && py < y + height; }
-};
 
 struct ProfileOptions {
   std::optional<Region> roi;    // nothing else is profiled; parts outside the draw's target are ignored
@@ -44,6 +41,7 @@ struct ProfileOptions {
   int repeats = 5;          // isolate: draws of a measured pixel; at least 2
   bool quads = false;       // isolate: measure quads even where the shader would not need them
   bool lines = true;        // also count executions per line, branch, call, lookup and loop
+  bool textures = false;    // also map where textures are read (profileBy)
   // Called now and then with the share done, 0..1.
   std::function<void(double)> progress;
   // Asked now and then: true ends measuring; what was measured until then is the result.
@@ -139,7 +137,8 @@ struct Profile {
   std::vector<FunctionCalls> functions;
   std::vector<SamplerFetches> samplers;
   std::vector<LoopCost> loops;
-  session::Check check;            // of all instrumented replays of the draw
+  std::optional<TextureAccesses> textures;  // where asked for
+  session::Check check;                     // of all instrumented replays of the draw
   std::vector<std::string> notes;  // what a reader must know to read the numbers right, a sentence each
 };
 
@@ -150,7 +149,8 @@ Profile profileIsolate(session::Session&, const ProfileOptions&);
 // The best that works here: clock, else isolate, else count; why the better ones do not stands in the notes.
 Profile profileAuto(session::Session&, const ProfileOptions&);
 
-// By the method of this name: "count", "clock", "isolate"; any other: profileAuto.
+// By the method of this name: "count", "clock", "isolate"; any other: profileAuto. With `textures` where it
+// looks up textures, which throws as mapTextures does.
 Profile profileBy(const std::string& method, session::Session&, const ProfileOptions&);
 
 }  // namespace shadestep::profiler

@@ -9,6 +9,7 @@
 #include "profiler/pictures/height_field.h"
 #include "profiler/pictures/ticks.h"
 #include "profiler/report/report.h"
+#include "profiler/texture_files.h"
 
 namespace shadestep::profiler {
 namespace {
@@ -220,6 +221,7 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
                                    {"line", sampler.line},
                                    {"fetches", sampler.fetches}});
   document["loops"] = loopsOf(profile);
+  if (profile.textures) document["textures"] = toJson(*profile.textures, files.texture);
   document["check"] = checkOf(profile.check);
   document["notes"] = profile.notes;
   if (comparison != nullptr) document["comparison"] = comparisonOf(*comparison);
@@ -250,10 +252,12 @@ void writeProfile(const Profile& profile, const ProfileFiles& files, const Subje
     for (const double d : comparison->difference) difference.push_back(rounded(d));
     writeExr(files.difference_exr, profile.map.width, profile.map.height, {{"Y", difference}});
   }
+  std::vector<ReportPicture> pictures;
+  if (profile.textures) pictures = writeTextures(*profile.textures, files.texture, subject.what);
   const Json document = toJson(profile, files, subject, comparison);
   writeFile(files.profile_json, document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  writeFile(files.report_html,
-            makeReport(profile, document, subject.source, subject.what, layersOf(profile, comparison)));
+  writeFile(files.report_html, makeReport(profile, document, subject.source, subject.what,
+                                          layersOf(profile, comparison), pictures));
 }
 
 std::string subjectOf(const std::string& program, session::Session& session) {

@@ -17,6 +17,8 @@ struct ProfileFiles {
   std::string profile_json;  // the document below
   std::string report_html;   // all of it to look at in a browser, offline
   std::string difference_png, difference_exr;  // with a comparison; channel Y: now - before
+  std::string
+      texture;  // with texture accesses: the beginning of their names, "DIR/texture-" (texture_files.h)
 };
 
 // What the files are about.

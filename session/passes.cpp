@@ -135,12 +135,6 @@ frontend::Type pixelType(std::uint32_t gl_type) {
   return type;
 }
 
-// layout(origin_upper_left) in vec4 gl_FragCoord;
-bool countsRowsFromTop(const frontend::Shader& shader) {
-  return std::any_of(shader.tokens.begin(), shader.tokens.end(),
-                     [](const frontend::Token& token) { return token.text == "origin_upper_left"; });
-}
-
 std::unique_ptr<wire::RasterT> raster(const FragmentChoice& choice) {
   if (!choice.forces()) return nullptr;
   const auto as_wire = [](FragmentChoice::Switch value) { return static_cast<wire::Switch>(value); };
@@ -167,6 +161,12 @@ std::vector<std::uint32_t> copyOf(std::span<const std::uint32_t> words) {
 }
 
 }  // namespace
+
+// layout(origin_upper_left) in vec4 gl_FragCoord;
+bool countsRowsFromTop(const frontend::Shader& shader) {
+  return std::any_of(shader.tokens.begin(), shader.tokens.end(),
+                     [](const frontend::Token& token) { return token.text == "origin_upper_left"; });
+}
 
 void Session::choose(const FragmentChoice& choice) {
   const DrawFacts& draw = facts();
@@ -208,12 +208,7 @@ Prepared Session::prepare(const instrumenter::AttachmentShader& instrumented) {
 
 Prepared Session::prepare(const instrumenter::RecordingShader& instrumented) {
   requireCapturable();
-  if (stage() != Stage::fragment) {
-    instrumenter::AttachmentLayout block;
-    block.words = 0;
-    block.list_block = instrumented.layout.block;
-    return prepareStages(instrumented.text, block);
-  }
+  if (stage() != Stage::fragment) return prepareStorage(instrumented.text, instrumented.layout.block);
   auto prepare = preparation(shader(), instrumented.text, instrumented.layout.attachment);
   prepare.storage_block = instrumented.layout.block;
   return send(std::move(prepare));
@@ -229,6 +224,19 @@ Prepared Session::prepareText(const std::string& text) {
   instrumenter::AttachmentLayout none;
   none.words = 0;
   return prepareStages(text, none);
+}
+
+Prepared Session::prepareStorage(const std::string& text, const std::string& block) {
+  requireCapturable();
+  if (stage() != Stage::fragment) {
+    instrumenter::AttachmentLayout layout;
+    layout.words = 0;
+    layout.list_block = block;
+    return prepareStages(text, layout);
+  }
+  wire::PrepareT prepare = preparation(shader(), text);
+  prepare.storage_block = block;
+  return send(std::move(prepare));
 }
 
 Prepared Session::prepareCovering(const std::string& fragment_text, const std::string& vertex_text) {

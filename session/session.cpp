@@ -264,6 +264,39 @@ std::vector<std::pair<std::string, std::string>> Session::glState() {
   return values;
 }
 
+std::vector<SampledTexture> Session::textures(const std::vector<SamplerName>& samplers) {
+  wire::DescribeTexturesT request;
+  request.stage = static_cast<wire::Stage>(stage());
+  for (const SamplerName& sampler : samplers) {
+    request.samplers.push_back(std::make_unique<wire::SamplerNameT>());
+    request.samplers.back()->name = sampler.uniform;
+    request.samplers.back()->target = sampler.target;
+  }
+  const auto [reply, bulk] = state_->ask<wire::TexturesT>(std::move(request));
+  if (reply.textures.size() != samplers.size())
+    throw Error(Outcome::failed, "the agent's answer is incomplete; report this as a bug");
+  std::vector<SampledTexture> textures;
+  for (const auto& told : reply.textures) {
+    SampledTexture texture;
+    texture.uniform = told->name;
+    texture.reason = told->reason;
+    texture.unit = told->unit;
+    texture.texture = told->texture;
+    texture.min_filter = told->min_filter;
+    texture.mag_filter = told->mag_filter;
+    for (std::size_t i = 0; i < std::min<std::size_t>(told->wrap.size(), 3); ++i)
+      texture.wrap[i] = told->wrap[i];
+    texture.min_lod = told->min_lod;
+    texture.max_lod = told->max_lod;
+    texture.lod_bias = told->lod_bias;
+    texture.anisotropy = told->anisotropy;
+    texture.base_level = told->base_level;
+    for (const auto& size : told->levels) texture.levels.push_back({size->width, size->height, size->depth});
+    textures.push_back(std::move(texture));
+  }
+  return textures;
+}
+
 void Session::select(Stage stage) {
   state_->stage = stage;
 }
@@ -294,6 +327,8 @@ instrumenter::Target Session::target() {
   target.storage_buffers = draw.storage_blocks[static_cast<std::size_t>(stage())] > own_blocks;
   target.bit_encoding = draw.has("GL_ARB_shader_bit_encoding") || (draw.es ? version >= 300 : version >= 330);
   target.shader_clock = draw.has("GL_ARB_shader_clock");
+  target.realtime_clock = draw.has("GL_EXT_shader_realtime_clock");
+  target.query_lod = draw.has("GL_ARB_texture_query_lod");
   target.es_draw_buffers = draw.has("GL_EXT_draw_buffers");
   target.max_draw_buffers = draw.max_draw_buffers;
   target.used_draw_buffers = draw.draw_buffers;

@@ -175,6 +175,25 @@ struct Execution {
   Check check;
 };
 
+// What a sampler reads at a draw.
+struct SamplerName {
+  std::string uniform;       // "map", "maps[1]"
+  std::uint32_t target = 0;  // GL_TEXTURE_2D, ...
+};
+struct SampledTexture {
+  std::string uniform;
+  std::string reason;  // why there is nothing to be read or told; empty if there is
+  int unit = 0;
+  std::uint32_t texture = 0;                                          // GL name
+  std::uint32_t min_filter = 0, mag_filter = 0, wrap[3] = {0, 0, 0};  // GL enums
+  float min_lod = -1000, max_lod = 1000, lod_bias = 0, anisotropy = 1;
+  int base_level = 0;
+  struct Size {
+    int width = 1, height = 1, depth = 1;  // texels; depth: slices, layers or faces
+  };
+  std::vector<Size> levels;  // from the base level on, those that a lookup can read
+};
+
 // The words of all threads of a capture, one block of `words` per pixel. Of other stages than the fragment
 // stage the threads lie in one row, in the order of their identities or, by transform feedback, as they were
 // issued.
@@ -273,6 +292,9 @@ class Session {
   // All state of the program's context that can be asked for: names and values, always in the same order.
   std::vector<std::pair<std::string, std::string>> glState();
 
+  // In the order of the names.
+  std::vector<SampledTexture> textures(const std::vector<SamplerName>&);
+
   // Throws cannot_debug, with the reason, if captures of the selected stage cannot work at this draw.
   void requireCapturable();
 
@@ -284,6 +306,8 @@ class Session {
   Prepared prepare(const instrumenter::RecordingShader&);
   Prepared prepareOriginal();                     // the program's own text
   Prepared prepareText(const std::string& text);  // another text with the same outputs, without captures
+  // Another text with the same outputs, which writes the storage block of this name.
+  Prepared prepareStorage(const std::string& text, const std::string& block);
   Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);  // isolate
   Execution execute(const Prepared&, const ExecuteOptions& = {});
   // prepare + execute + join the attachments per pixel. Threads that end in a discard are put where the draw
@@ -322,6 +346,9 @@ class Session {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// Does gl_FragCoord count rows from the top (layout(origin_upper_left))?
+bool countsRowsFromTop(const frontend::Shader&);
 
 // Joins attachments of 4 words a pixel into one block of `words` a pixel.
 ThreadWords joinAttachments(const Execution&, int words);

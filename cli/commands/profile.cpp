@@ -52,6 +52,7 @@ struct Options {
   std::optional<double> share;
   std::optional<int> fragments;
   int repeats = 5;
+  bool textures = false;
 };
 
 // "5%" or "5": five in a hundred.
@@ -77,6 +78,7 @@ profiler::ProfileOptions profileOptions(const Options& options) {
   result.share = options.share;
   result.size = options.fragments;
   result.repeats = options.repeats;
+  result.textures = options.textures;
   result.stop = [] { return interrupted.load(); };
   if (!options.roi.empty()) {
     const std::vector<int> roi = parseIntegers(options.roi, "--roi", 4, 4);
@@ -159,10 +161,37 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
                 profiler::readable(profile.fit->r2, 3).c_str());
 }
 
-void printFiles(const profiler::ProfileFiles& files, bool compared) {
+void printTextures(const profiler::TextureAccesses& accesses) {
+  std::printf("\n  line       lookups       outside  of the texture\n");
+  for (const profiler::LookupReads& lookup : accesses.lookups) {
+    std::printf("  %4d  %12s  %12s  %s(%s, ...)%s\n", lookup.line, withThousands(lookup.lookups).c_str(),
+                withThousands(lookup.outside).c_str(), lookup.function.c_str(), lookup.sampler.c_str(),
+                lookup.reason.empty() ? "" : (": not counted, " + lookup.reason).c_str());
+    if (lookup.undefined > 0)
+      std::printf("        %12s  of them with a coordinate that is NaN or infinite\n",
+                  withThousands(lookup.undefined).c_str());
+  }
+  std::printf("\n  level               texels         reads    used  sampler\n");
+  for (const profiler::TextureReads& texture : accesses.textures) {
+    if (!texture.reason.empty())
+      std::printf("  %45s  %s: %s\n", "", texture.sampler.c_str(), texture.reason.c_str());
+    for (const profiler::TextureLevelReads& level : texture.levels) {
+      if (level.total == 0) continue;
+      std::string size = std::to_string(level.width) + " x " + std::to_string(level.height);
+      if (level.depth > 1) size += " x " + std::to_string(level.depth);
+      std::printf("  %5d  %19s  %12s  %4s %%  %s\n", level.level, size.c_str(),
+                  withThousands(level.total).c_str(), profiler::readable(100 * level.used, 3).c_str(),
+                  texture.sampler.c_str());
+    }
+  }
+  for (const std::string& note : accesses.notes) std::printf("  %s\n", note.c_str());
+}
+
+void printFiles(const profiler::ProfileFiles& files, const profiler::Profile& profile, bool compared) {
   std::printf("\nwrote %s, %s, %s, %s, %s", files.report_html.c_str(), files.heat_png.c_str(),
               files.heat_exr.c_str(), files.height_png.c_str(), files.profile_json.c_str());
   if (compared) std::printf(", %s, %s", files.difference_png.c_str(), files.difference_exr.c_str());
+  if (profile.textures) std::printf(", %s*.png, %s*.exr", files.texture.c_str(), files.texture.c_str());
   std::printf("\n");
 }
 
@@ -175,6 +204,7 @@ profiler::ProfileFiles filesIn(const Common& common) {
   files.report_html = common.inOut("report.html");
   files.difference_png = common.inOut("difference.png");
   files.difference_exr = common.inOut("difference.exr");
+  files.texture = common.inOut("texture-");
   return files;
 }
 
@@ -209,8 +239,9 @@ int run(const Common& common, const Options& options) {
     print(profiler::toJson(profile, files, what, compared));
   } else {
     printText(profile, shader);
+    if (profile.textures) printTextures(*profile.textures);
     if (comparison) printComparison(*comparison, shader);
-    printFiles(files, comparison.has_value());
+    printFiles(files, profile, comparison.has_value());
   }
   const bool differs = profile.check.compared_at_all && !profile.check.identical();
   const bool dearer = comparison && comparison->verdict == profiler::Verdict::dearer;
@@ -244,6 +275,8 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--no-lines", options->no_lines, "do not count executions per line");
+  command->add_flag("--textures", options->textures,
+                    "also map where textures are read, and how often: texture-SAMPLER-levelN.png and .exr");
   command
       ->add_option(
           "--error", options->error,

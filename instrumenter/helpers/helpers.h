@@ -5,6 +5,9 @@
 
 namespace shadestep::instrumenter::helpers {
 
+extern const char* const k_accesses;
+extern const char* const k_accesses_declarations;
+extern const char* const k_accesses_fragment;
 extern const char* const k_attachment_halves;
 extern const char* const k_es_words;
 extern const char* const k_recording_declarations;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "interceptor/agent/describe_textures.h"
 #include "interceptor/agent/executed.h"
 #include "interceptor/agent/query_pause.h"
 #include "interceptor/dispatch/dispatch.h"
@@ -78,6 +79,8 @@ Reply Stop::answer(const wire::MessageT& request) {
     reply = success(describe(facts()));
   } else if (request.body.AsDescribeState() != nullptr) {
     reply = replied(describeState());
+  } else if (const wire::DescribeTexturesT* textures = request.body.AsDescribeTextures()) {
+    reply = success(describeTextures(facts(), *textures));
   } else if (const wire::PrepareT* prepare_request = request.body.AsPrepare()) {
     reply = replied(prepare(*prepare_request));
   } else if (const wire::ExecuteT* execute_request = request.body.AsExecute()) {

@@ -66,7 +66,23 @@ TextureLevel measure(const Target& entry, GLint level) {
   return result;
 }
 
+const Target* entryOf(GLenum target) {
+  for (const Target& entry : kTargets)
+    if (entry.target == target) return &entry;
+  return nullptr;
+}
+
 }  // namespace
+
+TextureLevel boundLevel(GLenum target, GLint level) {
+  const Target* entry = entryOf(target);
+  return entry != nullptr ? measure(*entry, level) : TextureLevel{};
+}
+
+GLenum textureBinding(GLenum target) {
+  const Target* entry = entryOf(target);
+  return entry != nullptr ? entry->binding : 0;
+}
 
 // A texture keeps the target that it was first bound to, and binding it to another is an error without
 // effect: the target is found by trying.

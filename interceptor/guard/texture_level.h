@@ -25,6 +25,12 @@ struct TextureLevel {
 // Asks by binding the texture to the active unit, and binds what was there before.
 TextureLevel textureLevel(GLuint texture, GLint level);
 
+// The same of the texture that is bound to the target at the active unit; what the context does not know is
+// 0.
+TextureLevel boundLevel(GLenum target, GLint level);
+// What glGet takes for the texture that is bound to the target; 0 for what is no texture target.
+GLenum textureBinding(GLenum target);
+
 // Whether a uniform of this type is an image.
 constexpr bool isImageType(GLenum type) {
   return type >= GL_IMAGE_1D && type <= GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY;

@@ -104,7 +104,7 @@ std::string drawHeatMap(const CostMap& map, const HeatMapText& text) {
   if (!costs.empty()) drawDistribution(canvas, {bar.right() + 66, bar.y, 90, bar.height}, range, costs, unit);
 
   double y = kTop + panel_height + 44;
-  drawKey(canvas, kLeft, y, kNoThread, false, "no thread of this draw");
+  drawKey(canvas, kLeft, y, kNoThread, false, text.nothing);
   for (const std::string& line : notes) canvas.text(kLeft, y += kNoteHeight, line, note_style);
   return canvas.png();
 }

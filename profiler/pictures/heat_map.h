@@ -10,10 +10,11 @@
 namespace shadestep::profiler {
 
 struct HeatMapText {
-  std::string title;               // "Cost per pixel: clock"
-  std::string subtitle;            // what was measured, on what
-  std::string unit;                // "ns", "ticks", "statements"
-  std::vector<std::string> notes;  // lines below the picture
+  std::string title;                               // "Cost per pixel: clock"
+  std::string subtitle;                            // what was measured, on what
+  std::string unit;                                // "ns", "ticks", "statements"
+  std::vector<std::string> notes;                  // lines below the picture
+  std::string nothing = "no thread of this draw";  // what a pixel without a cost means
 };
 
 // What the colours span: the costs that occur. One pixel in a thousand may lie above: a single interrupted

@@ -54,7 +54,8 @@ Json layerOf(const ReportLayer& layer) {
 }  // namespace
 
 std::string makeReport(const Profile& profile, const Json& document, const std::vector<std::string>& source,
-                       const std::string& subject, const std::vector<ReportLayer>& more) {
+                       const std::string& subject, const std::vector<ReportLayer>& more,
+                       const std::vector<ReportPicture>& pictures) {
   Json data;
   data["profile"] = document;
   data["subject"] = subject;
@@ -67,6 +68,12 @@ std::string makeReport(const Profile& profile, const Json& document, const std::
   data["layers"] = Json::array();
   data["layers"].push_back(layerOf({"cost", profile.unit, false, profile.map.cost, profile.uncertainty}));
   for (const ReportLayer& layer : more) data["layers"].push_back(layerOf(layer));
+
+  data["pictures"] = Json::array();
+  for (const ReportPicture& picture : pictures)
+    data["pictures"].push_back(
+        {{"title", picture.title},
+         {"png", base64(std::vector<std::uint8_t>(picture.png.begin(), picture.png.end()))}});
 
   // Inside a script element nothing may look like its end.
   std::string json;

@@ -18,9 +18,15 @@ struct ReportLayer {
   std::vector<double> uncertainty;  // per pixel; may be empty
 };
 
+// A picture that stands in the report as it is.
+struct ReportPicture {
+  std::string title;
+  std::string png;  // the file's bytes
+};
+
 // The file's text. `document`: what toJson gives; `source`: the shader's lines.
 std::string makeReport(const Profile&, const nlohmann::ordered_json& document,
                        const std::vector<std::string>& source, const std::string& subject,
-                       const std::vector<ReportLayer>& more);
+                       const std::vector<ReportLayer>& more, const std::vector<ReportPicture>& pictures = {});
 
 }  // namespace shadestep::profiler

@@ -42,6 +42,7 @@ TEST_P(Liar, IsSurvived) {
     });
     refusals += refused([&] { session.record(0, 0, 2, 2); });
     refusals += refused([&] { session.glState(); });
+    refusals += refused([&] { session.textures({{"map", 0x0DE1}}); });
     session::StopCondition step;
     step.next_call = true;
     session.tellCalls({}, [](const session::LoggedCall&) {});
