@@ -1,7 +1,9 @@
 #include "profiler/clock_ticks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "profiler/statistics.h"
@@ -156,23 +158,35 @@ Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
   return result;
 }
 
-ClockTest testShaderClock(session::Session& session, const instrumenter::ShaderClock& clock) {
-  const instrumenter::AttachmentShader shader = knownWork(session.shader(session::Stage::fragment), clock);
-  const session::Prepared prepared = session.prepare(shader);
-  ticksFor(session, prepared, shader.layout, kWork);  // the driver compiles
-  const double once = ticksFor(session, prepared, shader.layout, kWork);
-  const double twice = ticksFor(session, prepared, shader.layout, 2 * kWork);
-  const double thrice = ticksFor(session, prepared, shader.layout, 3 * kWork);
+ClockTest judgeClock(double once, double twice, double thrice, int steps) {
   ClockTest test;
-  test.step = (twice - once) / kWork;
+  test.step = (twice - once) / steps;
   test.ratio = (thrice - once) / (twice - once);
-  test.trusted = std::abs(test.ratio - 2) < 0.4;
+  test.trusted = twice > once && std::abs(test.ratio - 2) < 0.4;
   if (!test.trusted) {
     std::ostringstream reason;
     reason << "the driver's shader clock does not run in proportion to the work (" << once << ", " << twice
            << " and " << thrice
            << " ticks for one, two and three times the same work); use --method isolate or --method count";
     test.reason = reason.str();
+  }
+  return test;
+}
+
+ClockTest testShaderClock(session::Session& session, const instrumenter::ShaderClock& clock) {
+  const instrumenter::AttachmentShader shader = knownWork(session.shader(session::Stage::fragment), clock);
+  const session::Prepared prepared = session.prepare(shader);
+  ticksFor(session, prepared, shader.layout, kWork);  // the driver compiles
+  // In turns, so that a slow moment meets all three; the fastest counts.
+  constexpr int kRounds = 4;
+  std::array<double, 3> ticks;
+  ticks.fill(std::numeric_limits<double>::infinity());
+  ClockTest test;
+  for (int round = 0; round < kRounds && !test.trusted; ++round) {
+    for (std::size_t i = 0; i < ticks.size(); ++i)
+      ticks[i] =
+          std::min(ticks[i], ticksFor(session, prepared, shader.layout, kWork * static_cast<int>(i + 1)));
+    test = judgeClock(ticks[0], ticks[1], ticks[2], kWork);
   }
   return test;
 }

@@ -50,6 +50,9 @@ struct ClockTest {
   std::string reason;  // if not trusted: why, and what to use instead
 };
 
+// Of the ticks that one, two and three times the same work of `steps` steps took.
+ClockTest judgeClock(double once, double twice, double thrice, int steps);
+
 // Runs N and 2N steps of known work in place of the current draw's fragment shader, and looks whether the
 // clock runs in proportion. Throws session::Error if the draw cannot be captured.
 ClockTest testShaderClock(session::Session&, const instrumenter::ShaderClock&);

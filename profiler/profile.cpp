@@ -31,12 +31,46 @@ Profile profileAuto(session::Session& session, const ProfileOptions& options) {
   return profile;
 }
 
+namespace {
+
+// The clock, and each thread by itself; the pictures and lines are the clock's.
+Profile withNeighbours(session::Session& session, const ProfileOptions& options) {
+  Profile clock = profileClock(session, options);
+  if (clock.interrupted) return clock;
+  ProfileOptions alone = options;
+  alone.lines = false;
+  const Profile isolate = profileIsolate(session, alone);
+  clock.check.merge(isolate.check);
+  clock.interrupted = isolate.interrupted;
+  clock.seconds += isolate.seconds;
+  clock.neighbours = neighbourCost({clock.map, clock.uncertainty, clock.yardstick},
+                                   {isolate.map, isolate.uncertainty, isolate.yardstick}, clock.diverging);
+  clock.notes.push_back(
+      "What a pixel pays for its neighbours: its ticks less those that its thread alone would take, by "
+      "isolate of " +
+      std::to_string(isolate.measured) + " of " + std::to_string(isolate.covered) + " pixels. " +
+      (clock.neighbours->without_divergence > 0 ? "Nanoseconds count as ticks as they do in the " +
+                                                      std::to_string(clock.neighbours->without_divergence) +
+                                                      " measured pixels of groups that do not diverge."
+                                                : "No group is without divergence: nanoseconds count as "
+                                                  "ticks as they do for known work, whose caches and "
+                                                  "instructions may be others than the shader's."));
+  return clock;
+}
+
+}  // namespace
+
 // What textures are read is asked first: it takes one draw, and a long measurement must not be lost for its
 // refusal.
 Profile profileBy(const std::string& method, session::Session& session, const ProfileOptions& options) {
+  if (options.neighbours && method != "clock" && method != "auto")
+    throw session::Error(
+        session::Outcome::usage,
+        "only the clock measures threads among their neighbours; give --neighbours with --method clock");
   std::optional<TextureAccesses> textures;
   if (options.textures) textures = mapTextures(session, options.roi);
-  Profile profile = byMethod(method, session, options);
+  Profile profile =
+      options.neighbours ? withNeighbours(session, options) : byMethod(method, session, options);
   if (textures) profile.check.merge(textures->check);
   profile.textures = std::move(textures);
   return profile;

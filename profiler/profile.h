@@ -19,6 +19,7 @@
 
 #include "profiler/cost_map.h"
 #include "profiler/counts.h"
+#include "profiler/neighbours.h"
 #include "profiler/region.h"
 #include "profiler/texture_access.h"
 #include "session/loops.h"
@@ -42,6 +43,7 @@ struct ProfileOptions {
   bool quads = false;       // isolate: measure quads even where the shader would not need them
   bool lines = true;        // also count executions per line, branch, call, lookup and loop
   bool textures = false;    // also map where textures are read (profileBy)
+  bool neighbours = false;  // clock: also what each pixel pays for its neighbours, by isolate (profileBy)
   // Called now and then with the share done, 0..1.
   std::function<void(double)> progress;
   // Asked now and then: true ends measuring; what was measured until then is the result.
@@ -126,9 +128,13 @@ struct Profile {
   // What a step of known work costs in the same unit: makes runs on a faster and a slower day comparable. 0:
   // none.
   double yardstick = 0;
-  Grain grain;               // pixels that share a cost: a SIMD group (clock), a quad (isolate)
-  std::string timer;         // isolate: "CPU time" or "wall clock"
-  bool interrupted = false;  // by ProfileOptions::stop
+  Grain grain;  // pixels that share a cost: a SIMD group (clock), a quad (isolate)
+  // Per pixel: 1 where the threads of its grain do not all do the same, as far as is counted. Empty: not
+  // counted.
+  std::vector<std::uint8_t> diverging;
+  std::optional<NeighbourCost> neighbours;       // where asked for
+  std::string timer;                             // isolate: "CPU time" or "wall clock"
+  bool interrupted = false;                      // by ProfileOptions::stop
   std::optional<Reconstruction> reconstruction;  // where not all covered pixels were measured
   std::optional<SameOutput> same_output;         // isolate only
   std::vector<LineCost> lines;                   // lines that ran or could have run, in order

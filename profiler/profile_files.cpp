@@ -115,8 +115,10 @@ void writeHeatExr(const Profile& profile, const std::string& path) {
                                                                            : 0);
     if (i < profile.uncertainty.size()) uncertainty[i] = rounded(profile.uncertainty[i]);
   }
-  writeExr(path, profile.map.width, profile.map.height,
-           {{"Y", cost}, {"measured", measured}, {"uncertainty", uncertainty}});
+  std::vector<ExrChannel> channels = {{"Y", cost}, {"measured", measured}, {"uncertainty", uncertainty}};
+  const std::vector<double> diverging(profile.diverging.begin(), profile.diverging.end());
+  if (!diverging.empty()) channels.push_back({"diverging", diverging});
+  writeExr(path, profile.map.width, profile.map.height, channels);
 }
 
 Json comparisonOf(const Comparison& comparison) {
@@ -161,6 +163,35 @@ HeatMapText differenceText(const Profile& profile, const Comparison& comparison,
   return text;
 }
 
+HeatMapText neighboursText(const Profile& profile, const std::string& what) {
+  HeatMapText text;
+  text.title = "What pixels pay for their neighbours: clock less isolate";
+  text.subtitle = what;
+  text.unit = profile.unit;
+  text.notes.push_back(percent(profile.neighbours->share) +
+                       " of all ticks. Red: the threads of its group of " +
+                       std::to_string(profile.grain.width) + " x " + std::to_string(profile.grain.height) +
+                       " pixels make it wait; blue: alone it would take longer.");
+  text.notes.push_back(profile.notes.back());
+  return text;
+}
+
+void writeNeighbours(const Profile& profile, const ProfileFiles& files, const std::string& what) {
+  const NeighbourCost& paid = *profile.neighbours;
+  std::vector<std::uint8_t> significant;
+  std::vector<double> cost;
+  std::vector<double> uncertainty;
+  for (std::size_t i = 0; i < paid.cost.size(); ++i) {
+    significant.push_back(std::abs(paid.cost[i]) > paid.uncertainty[i] ? 1 : 0);
+    cost.push_back(rounded(paid.cost[i]));
+    uncertainty.push_back(rounded(paid.uncertainty[i]));
+  }
+  writeFile(files.neighbours_png,
+            drawDifferenceMap(profile.map, paid.cost, significant, neighboursText(profile, what)));
+  writeExr(files.neighbours_exr, profile.map.width, profile.map.height,
+           {{"Y", cost}, {"uncertainty", uncertainty}});
+}
+
 std::vector<ReportLayer> layersOf(const Profile& profile, const Comparison* comparison) {
   std::vector<ReportLayer> layers;
   for (const LoopCost& loop : profile.loops) {
@@ -169,6 +200,9 @@ std::vector<ReportLayer> layersOf(const Profile& profile, const Comparison* comp
     layer.values.assign(loop.report.iterations.begin(), loop.report.iterations.end());
     layers.push_back(std::move(layer));
   }
+  if (profile.neighbours)
+    layers.push_back({"paid for neighbours", profile.unit, true, profile.neighbours->cost,
+                      profile.neighbours->uncertainty});
   if (comparison != nullptr)
     layers.push_back({"difference from the earlier run", profile.unit, true, comparison->difference, {}});
   return layers;
@@ -221,6 +255,10 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
                                    {"line", sampler.line},
                                    {"fetches", sampler.fetches}});
   document["loops"] = loopsOf(profile);
+  if (profile.neighbours)
+    document["neighbours"] = {{"share", number(profile.neighbours->share)},
+                              {"scale", number(profile.neighbours->scale)},
+                              {"without_divergence", profile.neighbours->without_divergence}};
   if (profile.textures) document["textures"] = toJson(*profile.textures, files.texture);
   document["check"] = checkOf(profile.check);
   document["notes"] = profile.notes;
@@ -231,6 +269,10 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
                        {"height.png", files.height_png},
                        {"profile.json", files.profile_json},
                        {"report.html", files.report_html}};
+  if (profile.neighbours) {
+    document["files"]["neighbours.png"] = files.neighbours_png;
+    document["files"]["neighbours.exr"] = files.neighbours_exr;
+  }
   if (comparison != nullptr) {
     document["files"]["difference.png"] = files.difference_png;
     document["files"]["difference.exr"] = files.difference_exr;
@@ -252,6 +294,7 @@ void writeProfile(const Profile& profile, const ProfileFiles& files, const Subje
     for (const double d : comparison->difference) difference.push_back(rounded(d));
     writeExr(files.difference_exr, profile.map.width, profile.map.height, {{"Y", difference}});
   }
+  if (profile.neighbours) writeNeighbours(profile, files, subject.what);
   std::vector<ReportPicture> pictures;
   if (profile.textures) pictures = writeTextures(*profile.textures, files.texture, subject.what);
   const Json document = toJson(profile, files, subject, comparison);

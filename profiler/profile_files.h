@@ -12,11 +12,13 @@ namespace shadestep::profiler {
 struct ProfileFiles {
   std::string heat_png;      // the picture
   std::string heat_exr;      // channels: Y, cost; measured: 1 measured, 0.5 reconstructed, 0 no thread;
-                             // uncertainty: 95% half width
+                             // uncertainty: 95% half width; diverging, where it was counted: 1
+                             // where the threads of a grain do not all do the same
   std::string height_png;    // the same as a landscape
   std::string profile_json;  // the document below
   std::string report_html;   // all of it to look at in a browser, offline
   std::string difference_png, difference_exr;  // with a comparison; channel Y: now - before
+  std::string neighbours_png, neighbours_exr;  // with the cost of neighbours; channels Y, uncertainty
   std::string
       texture;  // with texture accesses: the beginning of their names, "DIR/texture-" (texture_files.h)
 };

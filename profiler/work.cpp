@@ -201,6 +201,7 @@ void describeWork(const frontend::Shader& shader, const Counts& counts, Profile&
   }
   for (const auto& [number, line] : lines) profile.lines.push_back(line);
 
+  profile.diverging = divergingPixels(counts, profile.map, profile.grain);
   describeBranches(shader, counts, profile);
   const std::vector<instrumenter::TextureFetch> fetches = instrumenter::textureFetches(shader);
   for (const Counts::Site& site : counts.sites) {
@@ -235,6 +236,12 @@ void describeLoops(session::Session& session, Profile& profile) {
     loop.report = std::move(one);
     loop.active_share = activeShare(loop.report.iterations, profile.map, profile.grain);
     findCriticalPath(loop, report.width);
+    if (loop.report.cut > 0)
+      profile.notes.push_back(
+          "The driver ended the loop at line " + std::to_string(loop.report.line) + " in " +
+          std::to_string(loop.report.cut) +
+          " threads although its condition still held: counts and costs are those of what ran, "
+          "another driver would go on.");
     profile.loops.push_back(std::move(loop));
   }
 }

@@ -53,6 +53,7 @@ struct Options {
   std::optional<int> fragments;
   int repeats = 5;
   bool textures = false;
+  bool neighbours = false;
 };
 
 // "5%" or "5": five in a hundred.
@@ -79,6 +80,7 @@ profiler::ProfileOptions profileOptions(const Options& options) {
   result.size = options.fragments;
   result.repeats = options.repeats;
   result.textures = options.textures;
+  result.neighbours = options.neighbours;
   result.stop = [] { return interrupted.load(); };
   if (!options.roi.empty()) {
     const std::vector<int> roi = parseIntegers(options.roi, "--roi", 4, 4);
@@ -152,6 +154,9 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
     std::printf("the rest reconstructed: error %s %% (root mean square) on %zu held-out pixels\n",
                 profiler::readable(100 * profile.reconstruction->error, 2).c_str(),
                 profile.reconstruction->held_out);
+  if (profile.neighbours)
+    std::printf("paid for neighbours: %s %% of all %s\n",
+                profiler::readable(100 * profile.neighbours->share, 3).c_str(), profile.unit.c_str());
   std::cout << describe(profile.check) << "\n";
   for (const std::string& note : profile.notes) std::cout << "note: " << note << "\n";
   std::fflush(stdout);
@@ -159,6 +164,17 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
   if (profile.fit)
     std::printf("\n  shares by a fit of costs to counts: R2 %s\n",
                 profiler::readable(profile.fit->r2, 3).c_str());
+}
+
+// How much of the device is in use behind each condition.
+void printBranches(const profiler::Profile& profile) {
+  if (profile.branches.empty()) return;
+  std::printf("\n  line     evaluated         taken  lanes active there, and behind it (groups of %d x %d)\n",
+              profile.grain.width, profile.grain.height);
+  for (const profiler::BranchCost& branch : profile.branches)
+    std::printf("  %4d  %12s  %12s  %s %%, %s %%  %s\n", branch.line, withThousands(branch.evaluated).c_str(),
+                withThousands(branch.taken).c_str(), profiler::readable(100 * branch.active_share, 3).c_str(),
+                profiler::readable(100 * branch.taken_share, 3).c_str(), branch.kind.c_str());
 }
 
 void printTextures(const profiler::TextureAccesses& accesses) {
@@ -191,6 +207,7 @@ void printFiles(const profiler::ProfileFiles& files, const profiler::Profile& pr
   std::printf("\nwrote %s, %s, %s, %s, %s", files.report_html.c_str(), files.heat_png.c_str(),
               files.heat_exr.c_str(), files.height_png.c_str(), files.profile_json.c_str());
   if (compared) std::printf(", %s, %s", files.difference_png.c_str(), files.difference_exr.c_str());
+  if (profile.neighbours) std::printf(", %s, %s", files.neighbours_png.c_str(), files.neighbours_exr.c_str());
   if (profile.textures) std::printf(", %s*.png, %s*.exr", files.texture.c_str(), files.texture.c_str());
   std::printf("\n");
 }
@@ -204,6 +221,8 @@ profiler::ProfileFiles filesIn(const Common& common) {
   files.report_html = common.inOut("report.html");
   files.difference_png = common.inOut("difference.png");
   files.difference_exr = common.inOut("difference.exr");
+  files.neighbours_png = common.inOut("neighbours.png");
+  files.neighbours_exr = common.inOut("neighbours.exr");
   files.texture = common.inOut("texture-");
   return files;
 }
@@ -239,6 +258,7 @@ int run(const Common& common, const Options& options) {
     print(profiler::toJson(profile, files, what, compared));
   } else {
     printText(profile, shader);
+    printBranches(profile);
     if (profile.textures) printTextures(*profile.textures);
     if (comparison) printComparison(*comparison, shader);
     printFiles(files, profile, comparison.has_value());
@@ -275,6 +295,9 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--no-lines", options->no_lines, "do not count executions per line");
+  command->add_flag(
+      "--neighbours", options->neighbours,
+      "clock: also measure by isolate, for what each pixel pays for its neighbours: neighbours.png and .exr");
   command->add_flag("--textures", options->textures,
                     "also map where textures are read, and how often: texture-SAMPLER-levelN.png and .exr");
   command

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -42,6 +43,20 @@ TEST(ClockTicks, going_backwards_are_no_measurement) {
   const std::uint64_t now = 0x0001234500000000;  // far from where any counter runs over
   EXPECT_EQ(between(now, now - 500, 64).kind, ClockTicks::Kind::backwards);
   EXPECT_EQ(between(now, now + 500, 64).ticks, 500U);
+}
+
+TEST(JudgeClock, trusts_what_grows_with_the_work_and_says_why_it_does_not) {
+  const ClockTest good = judgeClock(1030, 2030, 3030, 200);
+  EXPECT_TRUE(good.trusted);
+  EXPECT_DOUBLE_EQ(good.step, 5);
+  EXPECT_TRUE(good.reason.empty());
+  for (const auto& [once, twice, thrice] :
+       {std::array{7.0, 7.0, 7.0}, std::array{1030.0, 2030.0, 2031.0}, std::array{9e12, 2030.0, 3030.0},
+        std::array{3030.0, 2030.0, 1030.0}}) {
+    const ClockTest lie = judgeClock(once, twice, thrice, 200);
+    EXPECT_FALSE(lie.trusted) << once;
+    EXPECT_NE(lie.reason.find("--method isolate"), std::string::npos) << once;
+  }
 }
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
