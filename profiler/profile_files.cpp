@@ -169,9 +169,9 @@ HeatMapText neighboursText(const Profile& profile, const std::string& what) {
   text.subtitle = what;
   text.unit = profile.unit;
   text.notes.push_back(percent(profile.neighbours->share) +
-                       " of all ticks. Red: the threads of its group of " +
+                       " of all ticks. Red: in place it takes longer, waiting for others of its group of " +
                        std::to_string(profile.grain.width) + " x " + std::to_string(profile.grain.height) +
-                       " pixels make it wait; blue: alone it would take longer.");
+                       " pixels or for memory; blue: alone it would take longer.");
   text.notes.push_back(profile.notes.back());
   return text;
 }
