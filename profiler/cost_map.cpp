@@ -12,6 +12,16 @@ std::vector<double> CostMap::costs(bool measured_only) const {
   return values;
 }
 
+CostMap costPerIteration(const CostMap& map, const std::vector<std::uint32_t>& iterations) {
+  CostMap result(map.width, map.height);
+  for (std::size_t i = 0; i < map.cost.size(); ++i) {
+    if (map.state[i] != PixelState::measured || iterations[i] == 0) continue;
+    result.state[i] = PixelState::measured;
+    result.cost[i] = map.cost[i] / iterations[i];
+  }
+  return result;
+}
+
 RankAgreement rankAgreement(const CostMap& a, const CostMap& b) {
   std::vector<double> of_a;
   std::vector<double> of_b;

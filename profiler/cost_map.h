@@ -33,6 +33,10 @@ struct CostMap {
   std::vector<double> costs(bool measured_only = false) const;
 };
 
+// The costs over iterations of a loop, of the measured pixels that have any; no other pixel has a cost. What
+// is left there is what iterations alone do not explain (thesis fig. 7.9 e, h).
+CostMap costPerIteration(const CostMap&, const std::vector<std::uint32_t>& iterations);
+
 // Spearman's rho of the costs at the pixels measured in both maps, and how many these are. Maps of different
 // sizes have none in common. NaN as in spearman().
 struct RankAgreement {

@@ -6,27 +6,33 @@ namespace shadestep::profiler {
 
 Profile profileCount(session::Session& session, const ProfileOptions& options) {
   const Stopwatch stopwatch;
+  const frontend::Shader& source = session.shader();
   Profile profile;
   profile.method = Method::count;
   profile.unit = "statements";
-  profile.grain = {2, 2};
-  const auto shader =
-      instrumenter::instrumentCount(session.shader(session::Stage::fragment), {}, session.target());
+  profile.stage = session.stage();
+  const auto shader = instrumenter::instrumentCount(source, {}, session.target());
   const session::Captured captured = session.capture(orThrow(shader));
   profile.check = captured.execution.check;
-  profile.map = coveredPixels(captured, options);
+  if (profile.stage == session::Stage::fragment) {
+    profile.grain = {2, 2};
+    profile.map = coveredPixels(captured, options);
+  } else {
+    profile.threads = threadsOf(captured);
+    profile.map = foldThreads(captured, profile.threads);
+  }
 
   const instrumenter::Field& steps = captured.layout.fields.at(0);
-  for (int y = 0; y < profile.map.height; ++y)
-    for (int x = 0; x < profile.map.width; ++x)
-      if (const std::size_t i = profile.map.index(x, y); profile.map.state[i] == PixelState::measured)
-        profile.map.cost[i] =
-            instrumenter::decode(captured.layout, steps, captured.threads.at(x, y)).words.at(0);
+  const auto words = static_cast<std::size_t>(captured.threads.words);
+  for (std::size_t i = 0; i < profile.map.cost.size(); ++i)
+    if (profile.map.state[i] == PixelState::measured)
+      profile.map.cost[i] =
+          instrumenter::decode(captured.layout, steps, captured.threads.data.data() + i * words).words.at(0);
   if (options.progress) options.progress(options.lines ? 0.3 : 1);
 
   if (options.lines) {
     const Counts counts = countAll(session, profile.map, profile.check);
-    describeWork(session.shader(session::Stage::fragment), counts, profile);
+    describeWork(source, counts, profile);
     if (options.progress) options.progress(0.8);
     describeLoops(session, profile);
     if (options.progress) options.progress(1);

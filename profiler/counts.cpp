@@ -39,8 +39,7 @@ class Counter {
 
   // False, with nothing done, if the draw buffers do not hold so many.
   bool count(const std::vector<Counted>& batch) {
-    const auto result =
-        instrumenter::instrumentCount(session_.shader(session::Stage::fragment), batch, session_.target());
+    const auto result = instrumenter::instrumentCount(session_.shader(), batch, session_.target());
     if (std::holds_alternative<instrumenter::Failure>(result) && batch.size() > 1) return false;
     const session::Captured captured = session_.capture(orThrow(result));
     check_.merge(captured.execution.check);
@@ -89,7 +88,7 @@ std::uint64_t Counts::total(const Site& site) const {
 }
 
 Counts countAll(session::Session& session, const CostMap& covered, session::Check& check) {
-  const std::vector<Counted> all = everything(session.shader(session::Stage::fragment));
+  const std::vector<Counted> all = everything(session.shader());
   // A word per count and one for the mark; carriers that take more per number are found out by asking.
   const instrumenter::Target target = session.target();
   std::size_t fit =

@@ -4,7 +4,27 @@
 namespace shadestep::profiler {
 namespace {
 
+// Of other stages there are counts only.
+Profile otherStage(const std::string& method, session::Session& session, const ProfileOptions& options) {
+  const std::string stage = session::stageName(session.stage());
+  if (method != "count" && method != "auto")
+    throw session::Error(
+        session::Outcome::cannot_debug,
+        "'" + method +
+            "' measures fragments: isolate draws many copies of one, and the clock is read into "
+            "the pixels of the draw; for " +
+            stage + " shaders use --method count");
+  if (options.roi)
+    throw session::Error(session::Outcome::usage,
+                         "--roi chooses pixels; threads of " + stage + " shaders have none");
+  Profile profile = profileCount(session, options);
+  profile.notes.push_back(
+      "One cell of the map is one thread, row by row from the lower left in the order of threads.csv.");
+  return profile;
+}
+
 Profile byMethod(const std::string& method, session::Session& session, const ProfileOptions& options) {
+  if (session.stage() != session::Stage::fragment) return otherStage(method, session, options);
   if (method == "count") return profileCount(session, options);
   if (method == "clock") return profileClock(session, options);
   if (method == "isolate") return profileIsolate(session, options);
@@ -63,10 +83,12 @@ Profile withNeighbours(session::Session& session, const ProfileOptions& options)
 // What textures are read is asked first: it takes one draw, and a long measurement must not be lost for its
 // refusal.
 Profile profileBy(const std::string& method, session::Session& session, const ProfileOptions& options) {
-  if (options.neighbours && method != "clock" && method != "auto")
+  if (options.neighbours &&
+      (session.stage() != session::Stage::fragment || (method != "clock" && method != "auto")))
     throw session::Error(
         session::Outcome::usage,
-        "only the clock measures threads among their neighbours; give --neighbours with --method clock");
+        "only the clock measures threads among their neighbours, and fragments only; give --neighbours with "
+        "--method clock and --stage fragment");
   std::optional<TextureAccesses> textures;
   if (options.textures) textures = mapTextures(session, options.roi);
   Profile profile =

@@ -22,6 +22,7 @@
 #include "profiler/neighbours.h"
 #include "profiler/region.h"
 #include "profiler/texture_access.h"
+#include "profiler/thread_list.h"
 #include "session/loops.h"
 #include "session/session.h"
 
@@ -114,7 +115,9 @@ struct LineFit {
 
 struct Profile {
   Method method = Method::count;
-  std::string unit;  // of a pixel's cost: "statements", "ticks", "ns"
+  session::Stage stage = session::Stage::fragment;
+  ThreadList threads;  // of other stages than the fragment stage: who each is; thread i has cost i of the map
+  std::string unit;    // of a pixel's cost: "statements", "ticks", "ns"
   CostMap map;
   std::vector<double> uncertainty;        // per pixel: 95% half width, same unit; 0 where exact or not known
   std::size_t covered = 0;                // pixels on which a thread of the draw is visible (in the region)
@@ -148,6 +151,7 @@ struct Profile {
   std::vector<std::string> notes;  // what a reader must know to read the numbers right, a sentence each
 };
 
+// Of the selected stage; the others measure fragments only.
 Profile profileCount(session::Session&, const ProfileOptions&);
 Profile profileClock(session::Session&, const ProfileOptions&);
 Profile profileIsolate(session::Session&, const ProfileOptions&);

@@ -1,5 +1,6 @@
 #include "profiler/profile_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -82,10 +83,12 @@ std::string percent(double share) {
 
 HeatMapText textFor(const Profile& profile, const std::string& what) {
   HeatMapText text;
-  text.title = std::string("Cost per pixel: ") + methodName(profile.method);
+  const bool fragments = profile.stage == session::Stage::fragment;
+  text.title = std::string(fragments ? "Cost per pixel: " : "Cost per thread: ") + methodName(profile.method);
   text.subtitle = what;
   text.unit = profile.unit;
-  std::string measured = readable(static_cast<double>(profile.covered), 12) + " pixels";
+  std::string measured =
+      readable(static_cast<double>(profile.covered), 12) + (fragments ? " pixels" : " threads");
   if (profile.reconstruction)
     measured += ", " + readable(static_cast<double>(profile.measured), 12) + " of them measured (" +
                 percent(static_cast<double>(profile.measured) / static_cast<double>(profile.covered)) +
@@ -149,18 +152,72 @@ Json comparisonOf(const Comparison& comparison) {
       {"loops", std::move(loops)}};
 }
 
+// A path as a reader elsewhere understands it: what is below the working directory relative to it, else the
+// file in its folder.
+std::string shownPath(const std::string& given) {
+  const std::filesystem::path path(given);
+  if (!path.is_absolute()) return given;
+  std::error_code failed;
+  const std::filesystem::path here = std::filesystem::current_path(failed);
+  const std::filesystem::path below = path.lexically_relative(here);
+  if (!failed && !below.empty() && *below.begin() != "..") return below.string();
+  return (path.parent_path().filename() / path.filename()).string();
+}
+
 HeatMapText differenceText(const Profile& profile, const Comparison& comparison, const std::string& what) {
   HeatMapText text;
   text.title = std::string("Difference of cost per pixel: ") + methodName(profile.method);
   text.subtitle = what;
   text.unit = profile.unit;
-  text.notes.push_back("Against " + comparison.file + ": " + percent(comparison.change) + " in all, noise " +
-                       percent(comparison.noise) + ": " + verdictName(comparison.verdict) + ". Of " +
-                       readable(static_cast<double>(comparison.compared), 12) + " pixels, " +
-                       readable(static_cast<double>(comparison.cheaper), 12) + " are cheaper (blue) and " +
-                       readable(static_cast<double>(comparison.dearer), 12) +
-                       " dearer (red) beyond the noise.");
+  text.notes.push_back(
+      "Against " + shownPath(comparison.file) + ": " + percent(comparison.change) + " in all, noise " +
+      percent(comparison.noise) + ": " + verdictName(comparison.verdict) + ". Of " +
+      readable(static_cast<double>(comparison.compared), 12) + " pixels, " +
+      readable(static_cast<double>(comparison.cheaper), 12) + " are cheaper (blue) and " +
+      readable(static_cast<double>(comparison.dearer), 12) + " dearer (red) beyond the noise.");
   return text;
+}
+
+std::string threadsCsv(const Profile& profile) {
+  std::string text;
+  for (const std::string& name : profile.threads.names) text += name + ",";
+  text += profile.unit + "\n";
+  for (std::size_t i = 0; i < profile.threads.numbers.size(); ++i) {
+    for (const std::int32_t number : profile.threads.numbers[i]) text += std::to_string(number) + ",";
+    text += exactText(profile.map.cost[i]) + "\n";
+  }
+  return text;
+}
+
+// The loop that iterates most; null without loops.
+const LoopCost* busiestLoop(const Profile& profile) {
+  const auto total = [](const LoopCost& loop) {
+    return loop.report.mean * static_cast<double>(loop.report.threads);
+  };
+  const auto most =
+      std::max_element(profile.loops.begin(), profile.loops.end(),
+                       [&](const LoopCost& a, const LoopCost& b) { return total(a) < total(b); });
+  return most == profile.loops.end() ? nullptr : &*most;
+}
+
+void writePerIteration(const Profile& profile, const ProfileFiles& files, const std::string& what) {
+  const LoopCost* const loop = busiestLoop(profile);
+  if (loop == nullptr) return;
+  const CostMap map = costPerIteration(profile.map, loop->report.iterations);
+  HeatMapText text;
+  text.title = std::string("Cost per iteration: ") + methodName(profile.method);
+  text.subtitle = what;
+  text.unit = profile.unit;
+  text.nothing = "no iteration, or no thread";
+  text.notes = {"Each pixel's cost over its iterations of the loop at line " +
+                std::to_string(loop->report.line) +
+                ": what is left where iterations alone do not explain the cost."};
+  if (profile.reconstruction)
+    text.notes.push_back("Only measured pixels: " + std::to_string(map.costs().size()) + ".");
+  writeFile(files.per_iteration_png, drawHeatMap(map, text));
+  std::vector<double> cost;
+  for (const double c : map.cost) cost.push_back(rounded(c));
+  writeExr(files.per_iteration_exr, map.width, map.height, {{"Y", cost}});
 }
 
 HeatMapText neighboursText(const Profile& profile, const std::string& what) {
@@ -214,6 +271,7 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
             const Comparison* comparison) {
   Json document;
   document["method"] = methodName(profile.method);
+  document["stage"] = session::stageName(profile.stage);
   document["unit"] = profile.unit;
   document["width"] = profile.map.width;
   document["height"] = profile.map.height;
@@ -269,6 +327,11 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
                        {"height.png", files.height_png},
                        {"profile.json", files.profile_json},
                        {"report.html", files.report_html}};
+  if (profile.stage != session::Stage::fragment) document["files"]["threads.csv"] = files.threads_csv;
+  if (!files.per_iteration_png.empty()) {
+    document["files"]["per-iteration.png"] = files.per_iteration_png;
+    document["files"]["per-iteration.exr"] = files.per_iteration_exr;
+  }
   if (profile.neighbours) {
     document["files"]["neighbours.png"] = files.neighbours_png;
     document["files"]["neighbours.exr"] = files.neighbours_exr;
@@ -294,6 +357,8 @@ void writeProfile(const Profile& profile, const ProfileFiles& files, const Subje
     for (const double d : comparison->difference) difference.push_back(rounded(d));
     writeExr(files.difference_exr, profile.map.width, profile.map.height, {{"Y", difference}});
   }
+  if (profile.stage != session::Stage::fragment) writeFile(files.threads_csv, threadsCsv(profile));
+  if (!files.per_iteration_png.empty()) writePerIteration(profile, files, subject.what);
   if (profile.neighbours) writeNeighbours(profile, files, subject.what);
   std::vector<ReportPicture> pictures;
   if (profile.textures) pictures = writeTextures(*profile.textures, files.texture, subject.what);
@@ -305,8 +370,8 @@ void writeProfile(const Profile& profile, const ProfileFiles& files, const Subje
 
 std::string subjectOf(const std::string& program, session::Session& session) {
   return std::filesystem::path(program).filename().string() + ", frame " +
-         std::to_string(session.stop().frame) + ", draw " + std::to_string(session.stop().draw) +
-         ", fragment shader, on " + session.facts().renderer;
+         std::to_string(session.stop().frame) + ", draw " + std::to_string(session.stop().draw) + ", " +
+         session::stageName(session.stage()) + " shader, on " + session.facts().renderer;
 }
 
 }  // namespace shadestep::profiler

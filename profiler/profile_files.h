@@ -17,6 +17,9 @@ struct ProfileFiles {
   std::string height_png;    // the same as a landscape
   std::string profile_json;  // the document below
   std::string report_html;   // all of it to look at in a browser, offline
+  std::string threads_csv;   // of other stages than the fragment stage: who each thread is, and its cost
+  std::string per_iteration_png,
+      per_iteration_exr;                       // cost over iterations of the busiest loop; empty: not wanted
   std::string difference_png, difference_exr;  // with a comparison; channel Y: now - before
   std::string neighbours_png, neighbours_exr;  // with the cost of neighbours; channels Y, uncertainty
   std::string

@@ -221,7 +221,7 @@ void describeWork(const frontend::Shader& shader, const Counts& counts, Profile&
 }
 
 void describeLoops(session::Session& session, Profile& profile) {
-  const frontend::Shader& shader = session.shader(session::Stage::fragment);
+  const frontend::Shader& shader = session.shader();
   const bool any = std::any_of(shader.statements.begin(), shader.statements.end(), [](const auto& statement) {
     return statement.kind == StatementKind::for_ || statement.kind == StatementKind::while_ ||
            statement.kind == StatementKind::do_while;
@@ -234,8 +234,11 @@ void describeLoops(session::Session& session, Profile& profile) {
   for (session::LoopReport& one : report.loops) {
     LoopCost loop;
     loop.report = std::move(one);
+    // A list of threads may end before the map's last row does.
+    loop.report.iterations.resize(profile.map.cost.size());
+    loop.report.longest.resize(profile.map.cost.size());
     loop.active_share = activeShare(loop.report.iterations, profile.map, profile.grain);
-    findCriticalPath(loop, report.width);
+    findCriticalPath(loop, profile.map.width);
     if (loop.report.cut > 0)
       profile.notes.push_back(
           "The driver ended the loop at line " + std::to_string(loop.report.line) + " in " +

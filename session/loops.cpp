@@ -27,7 +27,7 @@ std::vector<StatementId> selectLoops(const Shader& shader, int line) {
     present += (present.empty() ? "" : ", ") + std::to_string(statement.place.line);
     if (line <= 0 || statement.place.line == line) chosen.push_back(static_cast<StatementId>(id));
   }
-  if (present.empty()) throw Error(Outcome::nothing_matches, "the fragment shader has no loop");
+  if (present.empty()) throw Error(Outcome::nothing_matches, "the shader has no loop");
   if (chosen.empty()) {
     throw Error(Outcome::nothing_matches,
                 "no loop at line " + std::to_string(line) + "; there are loops at line " + present);
@@ -57,7 +57,7 @@ Captured captureLoops(Session& session, const std::vector<StatementId>& loops, s
         loops.begin() + static_cast<std::ptrdiff_t>(first),
         loops.begin() + static_cast<std::ptrdiff_t>(first + std::max<std::size_t>(count, 1)));
     auto instrumented =
-        instrumenter::instrumentLoops(session.shader(Stage::fragment), batch, session.target());
+        instrumenter::instrumentLoops(session.shader(), batch, session.target());
     if (const auto* shader = std::get_if<instrumenter::AttachmentShader>(&instrumented))
       return session.capture(*shader);
     if (count <= 1) throw Error(Outcome::cannot_debug, std::get<instrumenter::Failure>(instrumented).reason);
@@ -103,7 +103,7 @@ LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captur
 }  // namespace
 
 LoopsReport profileLoops(Session& session, int line, const std::vector<std::uint8_t>& only) {
-  const Shader& shader = session.shader(Stage::fragment);
+  const Shader& shader = session.shader();
   const std::vector<StatementId> loops = selectLoops(shader, line);
   LoopsReport report;
   while (report.loops.size() < loops.size()) {

@@ -34,7 +34,7 @@ struct LoopsReport {
   Check check;
 };
 
-// All loops of the fragment shader, or the one at `line` if line > 0; of the pixels with only[pixel] != 0, if
+// All loops of the selected stage's shader, or the one at `line` if line > 0; of the pixels with only[pixel] != 0, if
 // it is not empty. Throws nothing_matches if there is no loop.
 LoopsReport profileLoops(Session&, int line = 0, const std::vector<std::uint8_t>& only = {});
 

@@ -54,6 +54,7 @@ struct Options {
   int repeats = 5;
   bool textures = false;
   bool neighbours = false;
+  bool per_iteration = false;
 };
 
 // "5%" or "5": five in a hundred.
@@ -145,11 +146,14 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
     const profiler::ScaledUnit unit = profiler::scaledUnit(profile.unit, value);
     return profiler::readable(value * unit.factor) + " " + unit.name;
   };
-  std::printf("%s: %s of %s covered pixels measured, %d time%s each, in %s s\n", methodName(profile.method),
-              withThousands(profile.measured).c_str(), withThousands(profile.covered).c_str(), profile.passes,
-              profile.passes == 1 ? "" : "s", profiler::readable(profile.seconds, 3).c_str());
-  std::printf("per pixel: median %s, 95 %% below %s; reproducible to %s %%\n", cost(profile.median).c_str(),
-              cost(profile.p95).c_str(), profiler::readable(100 * profile.spread, 2).c_str());
+  const bool fragments = profile.stage == session::Stage::fragment;
+  std::printf("%s: %s of %s %s measured, %d time%s each, in %s s\n", methodName(profile.method),
+              withThousands(profile.measured).c_str(), withThousands(profile.covered).c_str(),
+              fragments ? "covered pixels" : "threads", profile.passes, profile.passes == 1 ? "" : "s",
+              profiler::readable(profile.seconds, 3).c_str());
+  std::printf("per %s: median %s, 95 %% below %s; reproducible to %s %%\n", fragments ? "pixel" : "thread",
+              cost(profile.median).c_str(), cost(profile.p95).c_str(),
+              profiler::readable(100 * profile.spread, 2).c_str());
   if (profile.reconstruction)
     std::printf("the rest reconstructed: error %s %% (root mean square) on %zu held-out pixels\n",
                 profiler::readable(100 * profile.reconstruction->error, 2).c_str(),
@@ -169,12 +173,21 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
 // How much of the device is in use behind each condition.
 void printBranches(const profiler::Profile& profile) {
   if (profile.branches.empty()) return;
-  std::printf("\n  line     evaluated         taken  lanes active there, and behind it (groups of %d x %d)\n",
-              profile.grain.width, profile.grain.height);
-  for (const profiler::BranchCost& branch : profile.branches)
-    std::printf("  %4d  %12s  %12s  %s %%, %s %%  %s\n", branch.line, withThousands(branch.evaluated).c_str(),
-                withThousands(branch.taken).c_str(), profiler::readable(100 * branch.active_share, 3).c_str(),
-                profiler::readable(100 * branch.taken_share, 3).c_str(), branch.kind.c_str());
+  // Threads that are alone in their group never wait.
+  const bool groups = !(profile.grain == profiler::Grain{});
+  std::printf("\n  line     evaluated         taken");
+  if (groups)
+    std::printf("  lanes active there, and behind it (groups of %d x %d)", profile.grain.width,
+                profile.grain.height);
+  std::printf("\n");
+  for (const profiler::BranchCost& branch : profile.branches) {
+    std::printf("  %4d  %12s  %12s  ", branch.line, withThousands(branch.evaluated).c_str(),
+                withThousands(branch.taken).c_str());
+    if (groups)
+      std::printf("%s %%, %s %%  ", profiler::readable(100 * branch.active_share, 3).c_str(),
+                  profiler::readable(100 * branch.taken_share, 3).c_str());
+    std::printf("%s\n", branch.kind.c_str());
+  }
 }
 
 void printTextures(const profiler::TextureAccesses& accesses) {
@@ -208,6 +221,9 @@ void printFiles(const profiler::ProfileFiles& files, const profiler::Profile& pr
               files.heat_exr.c_str(), files.height_png.c_str(), files.profile_json.c_str());
   if (compared) std::printf(", %s, %s", files.difference_png.c_str(), files.difference_exr.c_str());
   if (profile.neighbours) std::printf(", %s, %s", files.neighbours_png.c_str(), files.neighbours_exr.c_str());
+  if (profile.stage != session::Stage::fragment) std::printf(", %s", files.threads_csv.c_str());
+  if (!files.per_iteration_png.empty())
+    std::printf(", %s, %s", files.per_iteration_png.c_str(), files.per_iteration_exr.c_str());
   if (profile.textures) std::printf(", %s*.png, %s*.exr", files.texture.c_str(), files.texture.c_str());
   std::printf("\n");
 }
@@ -221,22 +237,41 @@ profiler::ProfileFiles filesIn(const Common& common) {
   files.report_html = common.inOut("report.html");
   files.difference_png = common.inOut("difference.png");
   files.difference_exr = common.inOut("difference.exr");
+  files.threads_csv = common.inOut("threads.csv");
   files.neighbours_png = common.inOut("neighbours.png");
   files.neighbours_exr = common.inOut("neighbours.exr");
   files.texture = common.inOut("texture-");
   return files;
 }
 
+void requireLoop(const frontend::Shader& shader) {
+  using frontend::StatementKind;
+  const bool any = std::any_of(shader.statements.begin(), shader.statements.end(), [](const auto& statement) {
+    return statement.kind == StatementKind::for_ || statement.kind == StatementKind::while_ ||
+           statement.kind == StatementKind::do_while;
+  });
+  if (!any)
+    throw session::Error(session::Outcome::nothing_matches,
+                         "--per-iteration needs a loop, and the shader has none");
+}
+
 int run(const Common& common, const Options& options) {
-  requireFragmentStage(common, "profile");
   profiler::ProfileOptions how = profileOptions(options);
   std::optional<profiler::Earlier> earlier;
   if (!options.compare.empty()) earlier = profiler::readEarlier(options.compare);
-  const profiler::ProfileFiles files = filesIn(common);
+  profiler::ProfileFiles files = filesIn(common);
+  if (options.per_iteration) {
+    if (options.no_lines)
+      throw session::Error(session::Outcome::usage,
+                           "--per-iteration needs what --no-lines leaves out; give one of them");
+    files.per_iteration_png = common.inOut("per-iteration.png");
+    files.per_iteration_exr = common.inOut("per-iteration.exr");
+  }
   InterruptGuard guard;
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   session.requireCapturable();
+  if (options.per_iteration) requireLoop(session.shader());
   guard.listen();
 
   profiler::Profile profile;
@@ -248,7 +283,7 @@ int run(const Common& common, const Options& options) {
                                   session, how);
   }
   if (profile.interrupted) std::fprintf(stderr, "interrupted: this is what was measured until then\n");
-  const frontend::Shader& shader = session.shader(session::Stage::fragment);
+  const frontend::Shader& shader = session.shader();
   const profiler::Subject what{profiler::subjectOf(common.program.front(), session), shader.lines};
   std::optional<profiler::Comparison> comparison;
   if (earlier) comparison = profiler::compare(*earlier, profile, shader.lines);
@@ -298,6 +333,8 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
   command->add_flag(
       "--neighbours", options->neighbours,
       "clock: also measure by isolate, for what each pixel pays for its neighbours: neighbours.png and .exr");
+  command->add_flag("--per-iteration", options->per_iteration,
+                    "also the cost over the iterations of the busiest loop: per-iteration.png and .exr");
   command->add_flag("--textures", options->textures,
                     "also map where textures are read, and how often: texture-SAMPLER-levelN.png and .exr");
   command

@@ -31,7 +31,18 @@ constexpr BuiltIn kBuiltIns[] = {
     {"gl_PrimitiveID", Basic::int_, 1},      {"gl_Layer", Basic::int_, 1},
     {"gl_ViewportIndex", Basic::int_, 1},
 };
-constexpr const char* kTexCoord = "gl_TexCoord";
+// Built-in inputs that are arrays: what an element is.
+constexpr BuiltIn kArrays[] = {
+    {"gl_TexCoord", Basic::float_, 4},
+    {"gl_ClipDistance", Basic::float_, 1},
+    {"gl_CullDistance", Basic::float_, 1},
+};
+
+const BuiltIn* builtInArray(const std::string& name) {
+  const auto* found = std::find_if(std::begin(kArrays), std::end(kArrays),
+                                   [&name](const BuiltIn& candidate) { return name == candidate.name; });
+  return found == std::end(kArrays) ? nullptr : found;
+}
 
 const Token& at(const Shader& shader, TokenIndex i) {
   return shader.tokens[static_cast<std::size_t>(i)];
@@ -164,15 +175,14 @@ Result<std::vector<FragmentInput>> fragmentInputs(const Draft& draft) {
     const std::string& text = at(shader, i).text;
     if (text.starts_with("interpolateAt"))
       return Failure{"The inputs cannot be replaced: '" + text + "' needs a real input."};
-    if (text == "gl_ClipDistance" || text == "gl_CullDistance")
-      return Failure{"The inputs cannot be replaced yet: '" + text + "' is an array."};
-    if (text == kTexCoord && !isRedeclaration(shader, i)) {
+    const BuiltIn* const array = builtInArray(text);
+    if (array != nullptr && !isRedeclaration(shader, i)) {
       const std::string index = literalIndex(shader, i);
       if (index.empty())
-        return Failure{"The inputs cannot be replaced yet: gl_TexCoord is used without a literal index."};
+        return Failure{"The inputs cannot be replaced yet: " + text + " is used without a literal index."};
       if (seen.insert(text + index).second)
-        inputs.push_back(
-            {text + "[" + index + "]", draft.name("TexCoord" + index), typeOf(Basic::float_, 4)});
+        inputs.push_back({text + "[" + index + "]", draft.name(text.substr(3) + index),
+                          typeOf(array->basic, array->rows)});
     }
     const auto* built_in = std::find_if(std::begin(kBuiltIns), std::end(kBuiltIns),
                                         [&text](const BuiltIn& candidate) { return text == candidate.name; });
@@ -194,12 +204,12 @@ void replaceInputs(Draft& draft, const std::vector<FragmentInput>& inputs) {
 
   for (TokenIndex i = 0; i < tokenCount(shader); ++i) {
     const Token& token = at(shader, i);
-    const std::string watch =
-        token.text == kTexCoord ? token.text + "[" + literalIndex(shader, i) + "]" : token.text;
+    const bool array = builtInArray(token.text) != nullptr;
+    const std::string watch = array ? token.text + "[" + literalIndex(shader, i) + "]" : token.text;
     const auto input = std::find_if(inputs.begin(), inputs.end(), [&watch](const FragmentInput& candidate) {
       return candidate.input == watch && candidate.input != candidate.variable;
     });
-    if ((input != inputs.end() || token.text == kTexCoord) && isRedeclaration(shader, i)) {
+    if ((input != inputs.end() || array) && isRedeclaration(shader, i)) {
       Variable variable;
       variable.declared = i;
       const TokenRange declaration = globalDeclaration(shader, variable);
@@ -208,7 +218,7 @@ void replaceInputs(Draft& draft, const std::vector<FragmentInput>& inputs) {
       i = declaration.last;
     } else if (input != inputs.end()) {
       draft.edits.replace(i, input->variable);
-      if (token.text == kTexCoord)
+      if (array)
         for (TokenIndex index = i + 1; index <= i + 3; ++index) draft.edits.remove(index);
     }
   }

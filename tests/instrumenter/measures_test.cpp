@@ -471,6 +471,10 @@ TEST(IsolationText, DropsWhatVariablesCannotHave) {
       "+ gl_Color; }",
       "voidsd_main(){gl_FragColor=sd_TexCoord1+sd_Color;}");
   holds(
+      "#version 330 core\nin float gl_ClipDistance[2]; out vec4 o;\n"
+      "void main() { o = vec4(gl_ClipDistance[1], gl_ClipDistance[0], 0.0, 1.0); }",
+      "outvec4o;voidsd_main(){o=vec4(sd_ClipDistance1,sd_ClipDistance0,0.0,1.0);}");
+  holds(
       "#version 330 core\nin Block { noperspective vec2 a; flat int b; } block; out vec4 o;\n"
       "void main() { o = block.a.xyxy; }",
       "structBlock{vec2a;intb;}block;outvec4o;");
@@ -486,6 +490,9 @@ TEST(IsolationText, SaysWhatCannotBeIsolated) {
   EXPECT_EQ(isolatedText("#version 400 core\nin vec2 a; out vec4 o;\n"
                          "void main() { o = interpolateAtCentroid(a).xyxy; }"),
             "The inputs cannot be replaced: 'interpolateAtCentroid' needs a real input.");
+  EXPECT_EQ(isolatedText("#version 330 core\nuniform int i; in float gl_ClipDistance[2]; out vec4 o;\n"
+                         "void main() { o = vec4(gl_ClipDistance[i]); }"),
+            "The inputs cannot be replaced yet: gl_ClipDistance is used without a literal index.");
 }
 
 }  // namespace

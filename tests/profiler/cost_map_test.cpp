@@ -39,5 +39,15 @@ TEST(RankAgreement, is_undefined_for_maps_of_different_sizes) {
   EXPECT_TRUE(std::isnan(agreement.rho));
 }
 
+TEST(CostPerIteration, is_of_measured_pixels_that_iterate) {
+  CostMap map(4, 1);
+  map.cost = {12, 30, 8, 5};
+  map.state = {PixelState::measured, PixelState::reconstructed, PixelState::measured, PixelState::measured};
+  const CostMap each = costPerIteration(map, {4, 3, 0, 2});
+  EXPECT_EQ(each.costs(), (std::vector<double>{3, 2.5}));
+  EXPECT_EQ(each.state[1], PixelState::none);
+  EXPECT_EQ(each.state[2], PixelState::none);
+}
+
 }  // namespace
 }  // namespace shadestep::profiler
