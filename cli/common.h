@@ -77,6 +77,7 @@ void addSource(CLI::App&, Common&, Action&);
 void addDebug(CLI::App&, Common&, Action&);
 void addStep(CLI::App&, Common&, Action&);
 void addLoops(CLI::App&, Common&, Action&);
+void addPrimitives(CLI::App&, Common&, Action&);
 void addProfile(CLI::App&, Common&, Action&);
 void addDoctor(CLI::App&, Common&, Action&);
 void addVerify(CLI::App&, Common&, Action&);

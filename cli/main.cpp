@@ -36,6 +36,7 @@ int runCommandLine(int argc, char** argv) {
   cli::addDebug(app, common, action);
   cli::addStep(app, common, action);
   cli::addLoops(app, common, action);
+  cli::addPrimitives(app, common, action);
   cli::addProfile(app, common, action);
   cli::addDoctor(app, common, action);
   cli::addVerify(app, common, action);

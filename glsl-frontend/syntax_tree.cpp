@@ -134,6 +134,11 @@ class TypeReader {
     return type.getBasicTypeString().c_str();
   }
 
+  // glslang gives gl_in and gl_out members that only a vendor's extension declares.
+  static bool isVendors(const std::string& member) {
+    return member.starts_with("gl_") && member.ends_with("NV");
+  }
+
   std::shared_ptr<const StructType> structOf(const glslang::TType& type) {
     const glslang::TTypeList* list = type.getStruct();
     std::shared_ptr<const StructType>& known = structs_[list];
@@ -141,7 +146,8 @@ class TypeReader {
       auto made = std::make_shared<StructType>();
       made->name = usersName(type.getTypeName());
       for (const glslang::TTypeLoc& member : *list) {
-        made->members.push_back({usersName(member.type->getFieldName()), read(*member.type)});
+        const std::string name = usersName(member.type->getFieldName());
+        if (!isVendors(name)) made->members.push_back({name, read(*member.type)});
       }
       known = std::move(made);
     }

@@ -75,7 +75,7 @@ void Attachments::chooseFeedbackOrList(const Target& target) {
   }
   for (const Identity& one : identityOf(shader, target)) {
     Type number;
-    number.basic = frontend::Basic::int_;
+    number.basic = one.basic;
     if (!one.extension.empty()) draft_.require(one.extension);
     if (add(one.name, number)) identity_.push_back(one.expression);
   }
@@ -172,9 +172,9 @@ void Attachments::declareList(const std::string& block, int vectors) {
   requireStorage(draft_);
   list_vectors_ = vectors;
   draft_.declare(inStorage(draft_, "layout(std430) buffer " + block + " { " + draft_.highp() + "int " +
-                                       draft_.name("ended") + ", " + draft_.name("listed") + "; " +
-                                       draft_.highp() + (floats() ? "vec4 " : "uvec4 ") +
-                                       draft_.name("list") + "[]; };"));
+                                       draft_.name("ended") + ", " + draft_.name("listed") + ", " +
+                                       draft_.name("started") + "; " + draft_.highp() +
+                                       (floats() ? "vec4 " : "uvec4 ") + draft_.name("list") + "[]; };"));
 }
 
 // `before`: a vector that comes before the buffered words, "" = none.

@@ -3,8 +3,8 @@
 //
 // In every instrumented text the user's own tokens stand unchanged and in order, with insertions; the only
 // replacements are the name of `main` (wrapped, so that captured words are written at every end of the
-// thread), the names of functions cloned along a call path, `discard` (constructs/discard.h) and gl_FragColor
-// (constructs/fragment_outputs.h).
+// thread; constructs/main.h), the names of functions cloned along a call path, `discard`
+// (constructs/discard.h) and gl_FragColor (constructs/fragment_outputs.h).
 #pragma once
 
 #include <cstdint>
@@ -152,21 +152,51 @@ struct RecordingShader {
 template <class T>
 using Result = std::variant<T, Failure>;
 
-// What tells the threads of a stage apart: a whole number each ("vertex", "instance"), and how the shader
-// calls it. Empty for fragments, and where the dialect has no such names.
+// What tells the threads of a stage apart: a number each ("vertex", "instance"), and how the shader calls it.
+// Empty for fragments, and where the dialect has no such names. Threads of several instances, or of the draws
+// of a multi-draw, may have the same numbers.
 struct Identity {
   std::string name;
-  std::string expression;  // of type int
-  std::string extension;   // that it needs; "" = none
+  std::string expression;
+  std::string extension;                          // that it needs; "" = none
+  frontend::Basic basic = frontend::Basic::int_;  // or float_
 };
 std::vector<Identity> identityOf(const frontend::Shader&, const Target&);
 
-// The original outputs of a stage before rasterization, as transform feedback names them.
+// The outputs that a stage before rasterization writes, built-in ones too.
+std::vector<frontend::VariableId> stageOutputs(const frontend::Shader&);
+
+// The same, as transform feedback names them.
 struct FeedbackOutput {
   std::string name;  // "gl_Position", "Block.member", "light[2].colour"
   frontend::Type type;
 };
 std::vector<FeedbackOutput> feedbackOutputs(const frontend::Shader&);
+
+// ---- emits: what a geometry shader makes of each input primitive
+// ------------------------------------------------------------------------------------------------------
+
+// All vertices that all threads emit, with what the shader gives them. The threads of the list, by their
+// marks: kLaunched | kReached = an emitted vertex, kLaunched = a thread has ended. Fields: those of
+// EmitField, then the shader's outputs.
+struct EmitsShader {
+  std::string text;
+  AttachmentLayout layout;
+  std::vector<std::string> left_out;  // outputs that there is no room for
+};
+// The first fields, each an int. `thread` tells threads of the same identity apart: their order of start.
+// `stream`, `strip` (how often the thread ended a primitive of the stream before) are 0 where a thread ends;
+// `vertices`: how many it emitted before, or in all.
+enum EmitField { kEmitThread, kEmitStream, kEmitStrip, kEmitVertices, kEmitFields };
+Result<EmitsShader> instrumentEmits(const frontend::Shader&, const Target&);
+
+// Of the declaration `layout(triangle_strip, max_vertices = 15) out;`: "points", "line_strip" or
+// "triangle_strip"; -1 where the number is no literal.
+struct EmitLimits {
+  std::string primitive;
+  int max_vertices = -1;
+};
+EmitLimits emitLimits(const frontend::Shader&);
 
 // ---- single: one probe, all threads
 // ------------------------------------------------------------------------

@@ -17,7 +17,9 @@ using frontend::Call;
 using frontend::CallId;
 using frontend::Declarator;
 using frontend::Function;
+using frontend::Shader;
 using frontend::Statement;
+using frontend::StatementId;
 using frontend::StatementKind;
 using frontend::Storage;
 using frontend::Type;
@@ -30,9 +32,23 @@ bool isRecordable(const Type& type) {
   return words > 0 && words <= kWidestRecorded;
 }
 
-// Memory that other threads write to as well.
-bool isShared(const Variable& variable) {
-  return variable.storage == Storage::buffer || variable.storage == Storage::shared;
+// An `if` in a loop, with a break or return inside.
+bool mayLeaveLoop(const Shader& shader, StatementId id) {
+  if (statementAt(shader, id).kind != StatementKind::if_ || frontend::enclosingLoops(shader, id).empty())
+    return false;
+  const frontend::TokenRange tokens = statementAt(shader, id).tokens;
+  return std::any_of(shader.statements.begin(), shader.statements.end(), [&](const Statement& inner) {
+    const bool leaves = inner.kind == StatementKind::break_ || inner.kind == StatementKind::return_;
+    return leaves && inner.tokens.first > tokens.first && inner.tokens.last <= tokens.last;
+  });
+}
+
+// Memory that other threads write to as well: of a control shader's outputs too each thread has its part.
+bool isShared(const Shader& shader, const Variable& variable) {
+  const bool of_patch =
+      shader.stage == frontend::Stage::tess_control &&
+      ((variable.storage == Storage::out && variable.type.isArray()) || variable.name == "gl_out");
+  return of_patch || variable.storage == Storage::buffer || variable.storage == Storage::shared;
 }
 
 }  // namespace
@@ -124,7 +140,31 @@ void Recorder::recordCondition(StatementId id) {
                  [&](const Item& one) { return one.name != name; });
     items.push_back({name, conditions_.outcome(id), outcomeType(shader_, id)});
   }
-  conditions_.putAfter(draft_.edits, id, record(Event::condition, id, items));
+  conditions_.putAfter(draft_.edits, id, record(Event::condition, id, items) + opaque(id));
+}
+
+// Mesa 22.3 guesses how often a loop with an unknown bound runs from the arrays that its body indexes, and
+// then loses what is written where the loop's condition is evaluated. It guesses for plain comparisons only:
+// such a condition gets an operand that is always false, which the compiler does not know.
+std::string Recorder::opaque(StatementId id) const {
+  const Statement& statement = statementAt(shader_, id);
+  if (!isLoop(statement.kind) && !mayLeaveLoop(shader_, id)) return "";
+  const frontend::TokenRange condition = conditionTokens(shader_, id);
+  std::set<std::string> names;
+  for (frontend::TokenIndex i = condition.first; i <= condition.last; ++i) {
+    const frontend::Token& token = shader_.tokens[static_cast<std::size_t>(i)];
+    if (token.kind == frontend::TokenKind::identifier && !isConstant(token.text)) names.insert(token.text);
+  }
+  // Loops that the compiler can unroll stay what they are: it may have to.
+  if (names.size() < 2) return "";
+  const std::string outcome = conditions_.outcome(id);
+  return ", " + outcome + " = " + outcome + " || " + draft_.name("invocation") + " < 0";
+}
+
+bool Recorder::isConstant(const std::string& name) const {
+  return std::any_of(shader_.variables.begin(), shader_.variables.end(), [&](const Variable& variable) {
+    return variable.storage == Storage::constant && variable.name == name;
+  });
 }
 
 void Recorder::recordReturn(StatementId id, const std::string& before) {
@@ -270,7 +310,7 @@ std::vector<Item> Recorder::changed(const std::vector<VariableId>& changes,
   std::vector<Item> items;
   for (const VariableId id : scope) {
     const Variable& variable = shader_.variables[static_cast<std::size_t>(id)];
-    if (changing.contains(id) && !isShared(variable) && !hidden.contains(variable.name))
+    if (changing.contains(id) && !isShared(shader_, variable) && !hidden.contains(variable.name))
       items.push_back(item(id));
   }
   for (const Declarator& declarator : declared)
@@ -284,7 +324,7 @@ std::vector<Item> Recorder::changedBy(const Statement& statement) const {
   const std::optional<WrittenPlace> place = writtenPlace(shader_, statement);
   if (!place || !isRecordable(place->type)) return items;
   const Variable& written = shader_.variables[static_cast<std::size_t>(place->variable)];
-  if (!isShared(written) && isRecordable(written.type)) return items;
+  if (!isShared(shader_, written) && isRecordable(written.type)) return items;
   std::erase_if(items, [&](const Item& one) { return one.name == written.name; });
   items.push_back({place->name, withoutFragColor(place->expression), place->type});
   return items;

@@ -35,6 +35,8 @@ class Recorder {
 
   void recordStatement(StatementId);
   void recordCondition(StatementId);
+  std::string opaque(StatementId) const;
+  bool isConstant(const std::string& name) const;
   void recordReturn(StatementId, const std::string& before);
   void recordDeclarators(StatementId);
   void recordInside(StatementId);

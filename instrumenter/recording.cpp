@@ -50,11 +50,11 @@ bool usesBarriers(const Shader& shader) {
 
 // The frame: a thread starts and ends in the new main; where nothing is recorded it runs the plain copy. The
 // functions behind subroutine uniforms cannot be told apart that way, and a barrier must be one for all
-// threads.
+// threads. A control shader has no new main.
 std::string startOfThread(Draft& draft, Others others) {
   const Shader& shader = draft.shader();
-  const bool copies =
-      others == Others::plain_copies && !shader.traits.uses_subroutines && !usesBarriers(shader);
+  const bool copies = others == Others::plain_copies && !shader.traits.uses_subroutines &&
+                      !usesBarriers(shader) && shader.stage != frontend::Stage::tess_control;
   if (!copies) return "  " + draft.name("begin();\n");
   return turns(draft, copyPlain(draft));
 }
@@ -96,6 +96,10 @@ Result<RecordingShader> recordFragments(const Shader& shader, const Target& targ
   return recordSteps(draft, attachments.layout());
 }
 
+std::string asInteger(const Identity& one) {
+  return one.basic == frontend::Basic::float_ ? "floatBitsToInt(" + one.expression + ")" : one.expression;
+}
+
 // Of another stage: the one thread that the uniform names.
 Result<RecordingShader> recordThread(const Shader& shader, const Target& target, Others others) {
   Draft draft(shader);
@@ -111,7 +115,7 @@ Result<RecordingShader> recordThread(const Shader& shader, const Target& target,
   declareRecording(draft);
   std::string numbers;
   for (std::size_t i = 0; i < 3; ++i)
-    numbers += (i > 0 ? ", " : "") + (i < identity.size() ? identity[i].expression : "0");
+    numbers += (i > 0 ? ", " : "") + (i < identity.size() ? asInteger(identity[i]) : "0");
   for (const Identity& one : identity)
     if (!one.extension.empty()) draft.require(one.extension);
   draft.append("ivec3 " + draft.name("identity") + "() { return ivec3(" + numbers + "); }");

@@ -68,8 +68,8 @@ std::vector<Identity> identityOf(const Shader& shader, const Target& target) {
       return {{"primitive", "gl_PrimitiveID", ""}, {"vertex", "gl_InvocationID", ""}};
     case Stage::tess_eval:
       return {{"primitive", "gl_PrimitiveID", ""},
-              {"u", "floatBitsToInt(gl_TessCoord.x)", ""},
-              {"v", "floatBitsToInt(gl_TessCoord.y)", ""}};
+              {"u", "gl_TessCoord.x", "", frontend::Basic::float_},
+              {"v", "gl_TessCoord.y", "", frontend::Basic::float_}};
     case Stage::geometry:
       if (!isEs(shader) && shader.version < 400) return {{"primitive", "gl_PrimitiveIDIn", ""}};
       return {{"primitive", "gl_PrimitiveIDIn", ""}, {"invocation", "gl_InvocationID", ""}};
@@ -83,13 +83,21 @@ std::vector<Identity> identityOf(const Shader& shader, const Target& target) {
   return {};
 }
 
+std::vector<frontend::VariableId> stageOutputs(const Shader& shader) {
+  std::vector<frontend::VariableId> outputs;
+  for (std::size_t i = 0; i < shader.variables.size(); ++i) {
+    const Variable& variable = shader.variables[i];
+    const bool is_output = variable.storage == Storage::out ||
+                           (variable.storage == Storage::builtin && variable.name.starts_with("gl_"));
+    if (is_output && variable.written) outputs.push_back(static_cast<frontend::VariableId>(i));
+  }
+  return outputs;
+}
+
 std::vector<FeedbackOutput> feedbackOutputs(const Shader& shader) {
   std::vector<FeedbackOutput> outputs;
-  for (const Variable& variable : shader.variables) {
-    const bool is_output =
-        variable.storage == Storage::out ||
-        (variable.storage == Storage::builtin && variable.written && variable.name.starts_with("gl_"));
-    if (!is_output || !variable.written) continue;
+  for (const frontend::VariableId id : stageOutputs(shader)) {
+    const Variable& variable = shader.variables[static_cast<std::size_t>(id)];
     const std::string block = variable.storage == Storage::out ? blockOf(shader, variable) : "";
     addLeaves(block.empty() ? variable.name : block, variable.type, outputs);
   }

@@ -100,6 +100,9 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
     placed.push_back({probe, layout.probe_uniform + " == " + std::to_string(i), numbers,
                       attachments.assign(layout.probes[i].fields, kLaunched | kReached, values)});
     layout.probes[i].outputs = layout.capture.outputs;
+    layout.probes[i].list_block = layout.capture.list_block;
+    // In a list all threads take as many words as those of the widest probe.
+    if (layout.capture.carrier == Carrier::list) layout.probes[i].words = layout.capture.words;
     layout.probes[i].discarded_block = layout.capture.discarded_block;
     layout.probes[i].discarded_words = layout.capture.discarded_words;
   }

@@ -307,11 +307,6 @@ Stage Session::stage() const {
 
 void Session::requireCapturable() {
   shader();  // throws if it cannot be analysed
-  if (stage() == Stage::geometry || stage() == Stage::tess_control || stage() == Stage::tess_eval) {
-    throw Error(Outcome::cannot_debug, "this version of shadestep does not run " +
-                                           std::string(stageName(stage())) +
-                                           " shaders yet; 'shadestep source' lists them");
-  }
   const DrawFacts& draw = facts();
   const std::string& reason = stage() == Stage::fragment ? draw.target_reason : draw.replay_reason;
   if (!reason.empty()) throw Error(Outcome::cannot_debug, reason);

@@ -11,6 +11,29 @@ namespace {
 using frontend::Shader;
 using instrumenter::Probe;
 
+const char* const kPatchVertices = "gl_PatchVerticesIn";
+constexpr int kUnlimited = 1 << 30;
+
+bool ofPatch(const Shader& shader) {
+  return shader.stage == Stage::tess_control || shader.stage == Stage::tess_eval;
+}
+
+bool uses(const Shader& shader, const std::string& name) {
+  return std::any_of(shader.tokens.begin(), shader.tokens.end(),
+                     [&](const frontend::Token& token) { return token.text == name; });
+}
+
+// Of the block array gl_in the members that the shader names: nobody has written the others.
+void watchBlocks(const Shader& shader, frontend::VariableId id, std::vector<frontend::Watch>& watches) {
+  const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(id)];
+  for (int i = 0; i < variable.type.array.front(); ++i) {
+    for (const frontend::Member& member : variable.type.members->members) {
+      if (uses(shader, member.name) && frontend::wordCount(member.type) > 0)
+        watches.push_back({variable.name + "[" + std::to_string(i) + "]." + member.name, id, member.type});
+    }
+  }
+}
+
 // At the start of main, with the inputs that the shader uses.
 Probe inputsProbe(const Shader& shader) {
   Probe probe;
@@ -19,10 +42,52 @@ Probe inputsProbe(const Shader& shader) {
     const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(id)];
     const bool given = variable.storage == frontend::Storage::in ||
                        (variable.storage == frontend::Storage::builtin && !variable.written);
-    if (given && variable.read && frontend::wordCount(variable.type) > 0)
+    if (!given || !variable.read || frontend::wordCount(variable.type) == 0) continue;
+    if (variable.name == "gl_in" && variable.type.isArray() && variable.type.members)
+      watchBlocks(shader, id, probe.watches);
+    else
       probe.watches.push_back({variable.name, id, variable.type});
   }
+  if (ofPatch(shader)) {
+    frontend::Type number;
+    number.basic = frontend::Basic::int_;
+    probe.watches.push_back({kPatchVertices, frontend::kNone, number});
+  }
   return probe;
+}
+
+// One value for each vertex of the patch, in an array that has room for as many as there can be.
+bool isPerVertex(const Shader& shader, const std::string& name) {
+  const auto text = [&](frontend::TokenIndex i) { return shader.tokens[static_cast<std::size_t>(i)].text; };
+  for (const frontend::Variable& variable : shader.variables) {
+    if (variable.name != name || variable.storage != frontend::Storage::in || !variable.type.isArray())
+      continue;
+    bool patch = false;
+    for (frontend::TokenIndex i = variable.declared; i >= 0 && text(i) != ";" && text(i) != "{"; --i)
+      patch = patch || text(i) == "patch";
+    return !patch;
+  }
+  return false;
+}
+
+// The inputs of a thread: of a patch only the vertices that it has.
+std::vector<NamedValue> inputsOf(const Shader& shader, const ThreadValues& threads, std::size_t thread) {
+  const int vertices =
+      ofPatch(shader) ? static_cast<std::int32_t>(*threads.values.back().at(thread)) : kUnlimited;
+  std::vector<NamedValue> inputs;
+  for (const WatchedValues& one : threads.values) {
+    if (ofPatch(shader) && &one == &threads.values.back()) break;
+    const bool of_block = one.name.starts_with("gl_in[");
+    if (of_block && std::stoi(one.name.substr(std::string("gl_in[").size())) >= vertices) continue;
+    NamedValue input{one.name, one.valueAt(thread)};
+    frontend::Type& type = input.value.type;
+    if (isPerVertex(shader, one.name) && type.array.front() > vertices) {
+      type.array.front() = vertices;
+      input.value.words.resize(static_cast<std::size_t>(frontend::wordCount(type)));
+    }
+    inputs.push_back(std::move(input));
+  }
+  return inputs;
 }
 
 std::string range(const WatchedValues& numbers) {
@@ -34,25 +99,40 @@ std::string range(const WatchedValues& numbers) {
          std::to_string(static_cast<std::int32_t>(*most));
 }
 
+// Coordinates are no numbers to ask for: threads that they tell apart are counted.
 [[noreturn]] void noSuchThread(const ThreadValues& threads, const std::vector<std::int32_t>& wanted) {
   std::string asked;
   std::string there;
-  for (std::size_t i = 0; i < threads.identity.size(); ++i) {
+  bool counted = false;
+  for (std::size_t i = 0; i < threads.identity.size() && !counted; ++i) {
     const WatchedValues& numbers = threads.identity[i];
-    if (i < wanted.size())
-      asked += (asked.empty() ? "" : ", ") + numbers.name + " " + std::to_string(wanted[i]);
-    if (!numbers.words.empty()) there += (there.empty() ? "" : ", ") + range(numbers);
+    counted = numbers.type.basic == frontend::Basic::float_;
+    const std::int32_t number = i < wanted.size() ? wanted[i] : 0;
+    asked += (asked.empty() ? "" : ", ") + (counted ? "vertex" : numbers.name) + " " + std::to_string(number);
+    if (!counted && !numbers.words.empty()) there += (there.empty() ? "" : ", ") + range(numbers);
   }
+  if (counted) there += " with " + std::to_string(threads.launched) + " generated vertices in all";
   throw Error(Outcome::nothing_matches, "the draw runs no thread " + asked + "; " +
-                                            (there.empty() ? "it runs none" : "there are " + there));
+                                            (threads.launched == 0 ? "it runs none" : "there are " + there));
+}
+
+// The numbers that the recording compares, and which of the threads that have them is meant.
+std::vector<std::int32_t> numbersOf(const ThreadValues& threads, std::size_t thread, std::size_t& repeat) {
+  std::vector<std::int32_t> numbers;
+  for (const WatchedValues& one : threads.identity) {
+    if (one.name == "repeat")
+      repeat = *one.at(thread);
+    else
+      numbers.push_back(static_cast<std::int32_t>(*one.at(thread)));
+  }
+  return numbers;
 }
 
 }  // namespace
 
-ThreadRun followThread(Session& session, std::vector<std::int32_t> identity) {
+ThreadRun followThread(Session& session, const std::vector<std::int32_t>& identity) {
   const Shader& shader = session.shader();
   const ThreadValues inputs = valuesAt(session, inputsProbe(shader));
-  identity.resize(inputs.identity.size());
   const std::optional<std::size_t> number = inputs.find(identity);
   if (!number) noSuchThread(inputs, identity);
 
@@ -60,9 +140,11 @@ ThreadRun followThread(Session& session, std::vector<std::int32_t> identity) {
   ThreadRun run;
   if (auto* recording = std::get_if<instrumenter::RecordingShader>(&instrumented)) {
     Prepared program = session.prepare(*recording);
-    const Session::Recorded recorded = session.record({std::move(*recording), std::move(program)}, identity);
-    if (recorded.recording.threads.empty()) noSuchThread(inputs, identity);
-    const instrumenter::ThreadRecording& thread = recorded.recording.threads.front();
+    std::size_t repeat = 0;
+    const std::vector<std::int32_t> numbers = numbersOf(inputs, *number, repeat);
+    const Session::Recorded recorded = session.record({std::move(*recording), std::move(program)}, numbers);
+    if (recorded.recording.threads.size() <= repeat) noSuchThread(inputs, identity);
+    const instrumenter::ThreadRecording& thread = recorded.recording.threads[repeat];
     run.steps = stepsOf(shader, recorded.layout, thread);
     run.complete = thread.complete;
     run.check = recorded.execution.check;
@@ -70,7 +152,7 @@ ThreadRun followThread(Session& session, std::vector<std::int32_t> identity) {
     run = followThreadByProbes(session, *number);
   }
   for (const WatchedValues& one : inputs.identity) run.identity.push_back({one.name, one.valueAt(*number)});
-  for (const WatchedValues& one : inputs.values) run.inputs.push_back({one.name, one.valueAt(*number)});
+  run.inputs = inputsOf(shader, inputs, *number);
   return run;
 }
 

@@ -199,11 +199,17 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
 }
 
 std::optional<std::size_t> ThreadValues::find(const std::vector<std::int32_t>& wanted) const {
+  std::vector<std::int32_t> numbers = wanted;
+  numbers.resize(identity.size() + 1);
+  // Coordinates, which follow on the numbers, are counted.
+  std::size_t whole = 0;
+  while (whole < identity.size() && identity[whole].type.basic == frontend::Basic::int_) ++whole;
+  std::int32_t before = whole < identity.size() ? numbers[whole] : 0;
   for (std::size_t p = 0; p < marks.size(); ++p) {
     bool same = marks[p] != 0;
-    for (std::size_t i = 0; i < identity.size() && i < wanted.size(); ++i)
-      same = same && static_cast<std::int32_t>(*identity[i].at(p)) == wanted[i];
-    if (same) return p;
+    for (std::size_t i = 0; i < whole; ++i)
+      same = same && static_cast<std::int32_t>(*identity[i].at(p)) == numbers[i];
+    if (same && before-- == 0) return p;
   }
   return std::nullopt;
 }
@@ -232,38 +238,33 @@ void keep(WatchedValues& values, const std::vector<std::size_t>& kept) {
   values.words = std::move(words);
 }
 
-}  // namespace
-
-void nameThreads(ThreadValues& threads, std::int64_t instances) {
-  const std::size_t count = threads.marks.size();
-  if (threads.identity.empty()) {
-    threads.identity = {numbers("vertex", count), numbers("instance", count)};
-    const std::size_t each =
-        std::max<std::size_t>(count / static_cast<std::size_t>(std::max<std::int64_t>(instances, 1)), 1);
-    for (std::size_t p = 0; p < count; ++p) {
-      threads.identity[0].words[p] = static_cast<std::uint32_t>(p % each);
-      threads.identity[1].words[p] = static_cast<std::uint32_t>(p / each);
-    }
-    return;
-  }
-  std::vector<std::size_t> order(count);
+// Threads by identity, and those of one identity in the order in which they lie.
+std::vector<std::size_t> byIdentity(const ThreadValues& threads) {
+  std::vector<std::size_t> order(threads.marks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto before = [&](std::size_t a, std::size_t b) {
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     for (const WatchedValues& one : threads.identity)
       if (*one.at(a) != *one.at(b)) return *one.at(a) < *one.at(b);
-    return a < b;
-  };
-  std::sort(order.begin(), order.end(), before);
+    return false;
+  });
+  return order;
+}
+
+bool sameIdentity(const ThreadValues& threads, std::size_t a, std::size_t b) {
+  return std::all_of(threads.identity.begin(), threads.identity.end(),
+                     [&](const WatchedValues& one) { return *one.at(a) == *one.at(b); });
+}
+
+// Of threads that agree in all that is known of them, one stays.
+void keepOneOfEach(ThreadValues& threads) {
+  const std::size_t count = threads.marks.size();
+  const std::vector<std::size_t> order = byIdentity(threads);
   std::vector<std::size_t> kept;
   std::set<std::vector<std::uint32_t>> same;  // of one identity
   for (std::size_t i = 0; i < count; ++i) {
-    const auto identical = [&](std::size_t a, std::size_t b) {
-      return std::all_of(threads.identity.begin(), threads.identity.end(),
-                         [&](const WatchedValues& one) { return *one.at(a) == *one.at(b); });
-    };
-    const bool alone = (i == 0 || !identical(order[i - 1], order[i])) &&
-                       (i + 1 == count || !identical(order[i], order[i + 1]));
-    if (i == 0 || !identical(order[i - 1], order[i])) same.clear();
+    const bool first = i == 0 || !sameIdentity(threads, order[i - 1], order[i]);
+    const bool alone = first && (i + 1 == count || !sameIdentity(threads, order[i], order[i + 1]));
+    if (first) same.clear();
     if (alone || same.insert(wordsAt(threads, order[i])).second) kept.push_back(order[i]);
   }
   std::sort(kept.begin(), kept.end());
@@ -280,6 +281,36 @@ void nameThreads(ThreadValues& threads, std::int64_t instances) {
   }
   threads.marks = std::move(marks);
   threads.width = static_cast<int>(kept.size());
+}
+
+void numberRepeats(ThreadValues& threads) {
+  const std::vector<std::size_t> order = byIdentity(threads);
+  WatchedValues repeat = numbers("repeat", order.size());
+  bool any = false;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (!sameIdentity(threads, order[i - 1], order[i])) continue;
+    repeat.words[order[i]] = repeat.words[order[i - 1]] + 1;
+    any = true;
+  }
+  if (any) threads.identity.push_back(std::move(repeat));
+}
+
+}  // namespace
+
+void nameThreads(ThreadValues& threads, Stage stage, std::int64_t instances) {
+  const std::size_t count = threads.marks.size();
+  if (threads.identity.empty()) {
+    threads.identity = {numbers("vertex", count), numbers("instance", count)};
+    const std::size_t each =
+        std::max<std::size_t>(count / static_cast<std::size_t>(std::max<std::int64_t>(instances, 1)), 1);
+    for (std::size_t p = 0; p < count; ++p) {
+      threads.identity[0].words[p] = static_cast<std::uint32_t>(p % each);
+      threads.identity[1].words[p] = static_cast<std::uint32_t>(p / each);
+    }
+    return;
+  }
+  if (stage == Stage::vertex || (stage == Stage::tess_eval && instances <= 1)) keepOneOfEach(threads);
+  if (stage != Stage::vertex && stage != Stage::compute) numberRepeats(threads);
 }
 
 ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {
@@ -313,7 +344,7 @@ ThreadValues valuesAt(Session& session, Probe probe) {
     done += watched;
     probe.outcome = false;  // the first pass has it
   } while (done < wanted.size());
-  if (session.stage() != Stage::fragment) nameThreads(result, session.stop().instances);
+  if (session.stage() != Stage::fragment) nameThreads(result, session.stage(), session.stop().instances);
   return result;
 }
 

@@ -37,13 +37,16 @@ struct ThreadValues {
   std::uint64_t discarded = 0;      // of these, those that end in a discard
   std::vector<std::uint8_t> marks;  // width*height: instrumenter::kLaunched | kReached | kDiscarded
   // Of other stages than the fragment stage, whose threads lie in one row: who they are, by one value each of
-  // "vertex" and "instance", "primitive", or "x", "y" and "z".
+  // "vertex" and "instance", "primitive" and what is on it ("invocation", "vertex", or "u" and "v"), or "x",
+  // "y" and "z". Last comes "repeat" where several threads have the same numbers otherwise, as those of
+  // different instances have: in the order in which the driver ran them.
   std::vector<WatchedValues> identity;
   std::vector<WatchedValues> values;
   frontend::StatementId statement = frontend::kNone;
   Check check;
 
-  // The thread with this identity; nothing if there is none.
+  // The thread with this identity; nothing if there is none. Numbers left out are 0. Of threads that are told
+  // apart by coordinates (`u` and `v`), a number says which of those with the same numbers before it.
   std::optional<std::size_t> find(const std::vector<std::int32_t>& wanted) const;
   bool reachedAt(std::size_t pixel) const { return (marks[pixel] & instrumenter::kReached) != 0; }
 };
@@ -71,8 +74,8 @@ void addPass(ThreadValues&, const ThreadWords&, const instrumenter::AttachmentLa
 
 // To be called after the last pass: numbers the threads of a dialect that does not tell them apart, and
 // leaves one of those that are the same thread (a vertex that several indices name is one, whatever the
-// driver makes of it).
-void nameThreads(ThreadValues&, std::int64_t instances);
+// driver makes of it; so is a generated one). Others of the same identity get a number each, "repeat".
+void nameThreads(ThreadValues&, Stage, std::int64_t instances);
 
 // The statement and call path that a selection means. Throws nothing_matches.
 instrumenter::Probe probeAt(const frontend::Shader&, const PlaceSelection&);

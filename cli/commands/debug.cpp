@@ -23,9 +23,8 @@ const char* threadOptions(session::Stage stage) {
     case session::Stage::vertex:
       return "--vertex N [--instance M]";
     case session::Stage::tess_control:
-      return "--primitive N --vertex M";
     case session::Stage::tess_eval:
-      return "--primitive N";
+      return "--primitive N --vertex M";
     case session::Stage::geometry:
       return "--primitive N [--invocation M]";
     case session::Stage::compute:
@@ -72,25 +71,25 @@ std::optional<std::vector<std::int32_t>> chosenThread(session::Stage stage, cons
   using session::Stage;
   const bool patches = stage == Stage::tess_control || stage == Stage::tess_eval;
   requireFitting(stage, !options.pixel.empty(), stage == Stage::fragment, "--pixel");
-  requireFitting(stage, options.vertex >= 0, stage == Stage::vertex || stage == Stage::tess_control,
-                 "--vertex");
-  requireFitting(stage, options.instance >= 0, stage == Stage::vertex, "--instance");
+  requireFitting(stage, options.vertex >= 0, stage == Stage::vertex || patches, "--vertex");
+  requireFitting(stage, options.instance >= 0,
+                 stage == Stage::vertex || stage == Stage::geometry || stage == Stage::tess_control,
+                 "--instance");
   requireFitting(stage, options.primitive >= 0, patches || stage == Stage::geometry, "--primitive");
   requireFitting(stage, !options.invocation.empty(), stage == Stage::geometry || stage == Stage::compute,
                  "--invocation");
   if (stage == Stage::vertex && options.vertex >= 0)
     return std::vector<std::int32_t>{options.vertex, std::max(options.instance, 0)};
-  if (stage == Stage::tess_control && options.primitive >= 0)
-    return std::vector<std::int32_t>{options.primitive, std::max(options.vertex, 0)};
+  if (patches && options.primitive >= 0)
+    return std::vector<std::int32_t>{options.primitive, std::max(options.vertex, 0),
+                                     std::max(options.instance, 0)};
   if (stage == Stage::compute && !options.invocation.empty())
     return parseIntegers(options.invocation, "--invocation", 1, 3);
   if (stage == Stage::geometry && options.primitive >= 0) {
     const int invocation =
         options.invocation.empty() ? 0 : parseIntegers(options.invocation, "--invocation", 1, 1)[0];
-    return std::vector<std::int32_t>{options.primitive, invocation};
+    return std::vector<std::int32_t>{options.primitive, invocation, std::max(options.instance, 0)};
   }
-  if (stage == Stage::tess_eval && options.primitive >= 0)
-    return std::vector<std::int32_t>{options.primitive};
   return std::nullopt;
 }
 
@@ -108,10 +107,15 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
       ->type_name("N");
   command
       ->add_option("--vertex", options->vertex,
-                   "with --stage vertex: gl_VertexID; tess-control: gl_InvocationID")
+                   "with --stage vertex: gl_VertexID; tess-control: gl_InvocationID; tess-eval: which of the "
+                   "patch's generated vertices")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--instance", options->instance, "with --vertex: gl_InstanceID; default 0")
+  command
+      ->add_option(
+          "--instance", options->instance,
+          "with --stage vertex: gl_InstanceID; geometry, tess-control: which of the threads with the "
+          "same numbers ('repeat'); default 0")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--primitive", options->primitive, "with --stage geometry, tess-control, tess-eval")

@@ -95,7 +95,7 @@ void Conditions::putAfter(Edits& edits, StatementId id, const std::string& text)
   }
 }
 
-std::string Conditions::outcome(StatementId id) {
+std::string Conditions::outcome(StatementId id) const {
   const Shader& shader = draft_.shader();
   if (statementAt(shader, id).kind != StatementKind::switch_) return draft_.name("outcome");
   return outcomeType(shader, id).basic == Basic::uint_ ? "uint(" + draft_.name("selector") + ")"

@@ -30,7 +30,7 @@ class Conditions {
   void putBefore(Edits&, frontend::StatementId, const std::string& text);
   void putAfter(Edits&, frontend::StatementId, const std::string& text);
   // The outcome, as an expression to use in the text of putAfter.
-  std::string outcome(frontend::StatementId);
+  std::string outcome(frontend::StatementId) const;
 
  private:
   void fillMissing(Edits&, frontend::TokenRange);

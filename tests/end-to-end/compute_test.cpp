@@ -88,12 +88,7 @@ TEST(ComputeSelection, SaysWhatThereIs) {
   EXPECT_EQ(dispatch["stages"]["compute"]["debuggable"], true);
   const Json drawn = listed.json()["frames"][0]["draws"][2]["stages"];
   EXPECT_EQ(drawn["vertex"]["debuggable"], true);
-  EXPECT_EQ(drawn["geometry"]["debuggable"], false);  // not yet, and said so
-  EXPECT_EQ(
-      scratch
-          .shadestep({"debug", "--draw", "2", "--stage", "geometry", "--primitive", "0"}, {binary(kProgram)})
-          .status,
-      4);
+  EXPECT_EQ(drawn["geometry"]["debuggable"], true);
 }
 
 }  // namespace

@@ -145,13 +145,38 @@ void main() {
               -2147483648.0 + x,   y < 5 ? 1.0 : 0.0};
     }};
 
+// ---- loops whose bound only the arrays in them tell: Mesa takes it from there ----
+
+const ShaderCase kGuessed{"guessed",
+                          R"(#version 330 core
+out vec4 color;
+void main() {
+  float a[2];
+  a[0] = gl_FragCoord.x; a[1] = gl_FragCoord.y;
+  int n = int(gl_FragCoord.x) % 3, left = n;
+  float s = 0.0; int k = 0;
+  for (int i = 0; i < n; ++i) { s += a[i]; s *= 1.5; }
+  while (k < n) { s -= a[k]; ++k; }
+  for (int i = 0; ; ++i) { if (i >= n) break; s += 0.5 * a[i]; }
+  color = vec4(s, float(k), float(left), 1.0); //LAST
+}
+)",
+                          {"s", "k"},
+                          [](int x, int y) -> std::vector<double> {
+                            const double a[] = {x + 0.5, y + 0.5};
+                            double s = 0;
+                            for (int i = 0; i < x % 3; ++i) s = (s + a[i]) * 1.5;
+                            for (int i = 0; i < x % 3; ++i) s -= a[i] / 2;
+                            return {s, double(x % 3)};
+                          }};
+
 class Shaders : public testing::TestWithParam<ShaderCase> {};
 
 TEST_P(Shaders, ValuesAreThoseOfTheSameComputationInCpp) {
   expectValuesOf(GetParam(), "shader-file");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Shaders, testing::Values(kNames, kRecords),
+INSTANTIATE_TEST_SUITE_P(All, Shaders, testing::Values(kNames, kRecords, kGuessed),
                          [](const auto& parameter) { return parameter.param.name; });
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST(Discard, ListsTheThreadFirst) {
   const Shader shader = analysed(kHead + kDiscarding);
   const std::string text = single(shader, at(shader, 6));
   expectPart(text, "if (n > 1) sd_discard(); else color");
-  expectPart(text, "layout(std430) buffer sd_Discarded { int sd_ended, sd_listed; uvec4 sd_list[]; };");
+  expectPart(text, "layout(std430) buffer sd_Discarded { int sd_ended, sd_listed, sd_started; uvec4 sd_list[]; };");
   expectPart(text,
              "void sd_discard() { int sd_order = atomicAdd(sd_ended, 1); if (sd_order < sd_listed) {"
              "sd_list[sd_order * 2 + 0] = uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u);"

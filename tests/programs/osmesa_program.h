@@ -1,4 +1,4 @@
-// What the small programs share: a 64 x 64 OSMesa context, linked directly, and shaders that must compile.
+// What the small programs share: an OSMesa context, linked directly, and shaders that must compile.
 // Nothing here knows of the debugger; each program is about the one thing that its first line says.
 #pragma once
 
@@ -10,6 +10,8 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 inline constexpr int kSize = 64;
@@ -24,15 +26,16 @@ inline constexpr int kSize = 64;
 class OsmesaContext {
  public:
   enum class Profile { compatibility, core };
-  explicit OsmesaContext(Profile profile = Profile::compatibility, int major = 3, int minor = 3)
-      : colour_(static_cast<std::size_t>(kSize) * kSize * 4) {
+  explicit OsmesaContext(Profile profile = Profile::compatibility, int major = 3, int minor = 3,
+                         int size = kSize)
+      : size_(size), colour_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4) {
     std::vector<int> attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24};
     if (profile == Profile::core)
       attributes.insert(attributes.end(), {OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION,
                                            major, OSMESA_CONTEXT_MINOR_VERSION, minor});
     attributes.push_back(0);
     context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-    if (!context_ || !OSMesaMakeCurrent(context_, colour_.data(), GL_UNSIGNED_BYTE, kSize, kSize))
+    if (!context_ || !OSMesaMakeCurrent(context_, colour_.data(), GL_UNSIGNED_BYTE, size, size))
       fail("no OSMesa context");
   }
   ~OsmesaContext() { OSMesaDestroyContext(context_); }
@@ -42,7 +45,8 @@ class OsmesaContext {
   // RGBA of a pixel of the default framebuffer, y upwards.
   std::array<int, 4> pixel(int x, int y) {
     glFinish();
-    const std::size_t first = 4 * (static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x));
+    const std::size_t first =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(x));
     return {colour_[first], colour_[first + 1], colour_[first + 2], colour_[first + 3]};
   }
 
@@ -57,6 +61,7 @@ class OsmesaContext {
   }
 
  private:
+  int size_;
   std::vector<unsigned char> colour_;
   OSMesaContext context_ = nullptr;
 };
@@ -74,10 +79,9 @@ inline GLuint compile(GLenum stage, const char* text) {
 }
 
 // Linked, its shaders still attached.
-inline GLuint linkProgram(const char* vertex, const char* fragment) {
+inline GLuint linkStages(std::initializer_list<std::pair<GLenum, const char*>> shaders) {
   const GLuint program = glCreateProgram();
-  glAttachShader(program, compile(GL_VERTEX_SHADER, vertex));
-  glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment));
+  for (const auto& [stage, text] : shaders) glAttachShader(program, compile(stage, text));
   glLinkProgram(program);
   GLint linked = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &linked);
@@ -85,6 +89,9 @@ inline GLuint linkProgram(const char* vertex, const char* fragment) {
   glGetProgramInfoLog(program, log.size(), nullptr, log.data());
   if (!linked) fail("the program does not link:", log.data());
   return program;
+}
+inline GLuint linkProgram(const char* vertex, const char* fragment) {
+  return linkStages({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}});
 }
 
 // GLSL 1.20: the vertex as it is, in clip space.

@@ -93,18 +93,6 @@ void main()
 }
 )glsl";
 
-static GLuint link(std::initializer_list<std::pair<GLenum, const char*>> shaders) {
-  const GLuint program = glCreateProgram();
-  for (const auto& [stage, text] : shaders) glAttachShader(program, compile(stage, text));
-  glLinkProgram(program);
-  GLint linked = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &linked);
-  std::array<char, 1024> log{};
-  glGetProgramInfoLog(program, log.size(), nullptr, log.data());
-  if (!linked) fail("the program does not link:", log.data());
-  return program;
-}
-
 int main() {
   OsmesaContext context(OsmesaContext::Profile::core, 4, 5);
   GLuint buffers[3];
@@ -112,7 +100,7 @@ int main() {
   const std::array<int, 7> zeros{};
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[0]);
   glBufferData(GL_SHADER_STORAGE_BUFFER, sizeof zeros, zeros.data(), GL_DYNAMIC_COPY);
-  glUseProgram(link({{GL_COMPUTE_SHADER, kCompute}}));
+  glUseProgram(linkStages({{GL_COMPUTE_SHADER, kCompute}}));
   glDispatchCompute(2, 3, 1);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   const GLuint groups[] = {1, 2, 1};
@@ -126,13 +114,13 @@ int main() {
   GLuint vertex_array = 0;
   glGenVertexArrays(1, &vertex_array);
   glBindVertexArray(vertex_array);
-  glUseProgram(
-      link({{GL_VERTEX_SHADER, kVertex}, {GL_GEOMETRY_SHADER, kGeometry}, {GL_FRAGMENT_SHADER, kFragment}}));
+  glUseProgram(linkStages(
+      {{GL_VERTEX_SHADER, kVertex}, {GL_GEOMETRY_SHADER, kGeometry}, {GL_FRAGMENT_SHADER, kFragment}}));
   glDrawArrays(GL_LINE_STRIP, 0, 8);
-  glUseProgram(link({{GL_VERTEX_SHADER, kVertex},
-                     {GL_TESS_CONTROL_SHADER, kControl},
-                     {GL_TESS_EVALUATION_SHADER, kEvaluation},
-                     {GL_FRAGMENT_SHADER, kFragment}}));
+  glUseProgram(linkStages({{GL_VERTEX_SHADER, kVertex},
+                           {GL_TESS_CONTROL_SHADER, kControl},
+                           {GL_TESS_EVALUATION_SHADER, kEvaluation},
+                           {GL_FRAGMENT_SHADER, kFragment}}));
   glPatchParameteri(GL_PATCH_VERTICES, 3);
   glDrawArrays(GL_PATCHES, 0, 6);
   glFinish();
