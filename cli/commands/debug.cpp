@@ -58,7 +58,11 @@ int run(const Common& common, const DebugOptions& options) {
   runToSelection(session, common);
   session.requireCapturable();
   choose(session, options.fragments);
-  const auto look = options.at.empty() ? debugThread : options.hit >= 0 ? debugHit : debugValues;
+  const bool origin = !options.pixel.empty() && stage != session::Stage::fragment;
+  const auto look = origin               ? debugOrigin
+                    : options.at.empty() ? debugThread
+                    : options.hit >= 0   ? debugHit
+                                         : debugValues;
   const int outcome = look(session, common, options);
   if (!options.let_run) return outcome;
   const int status = session.runToEnd();
@@ -70,7 +74,9 @@ int run(const Common& common, const DebugOptions& options) {
 std::optional<std::vector<std::int32_t>> chosenThread(session::Stage stage, const DebugOptions& options) {
   using session::Stage;
   const bool patches = stage == Stage::tess_control || stage == Stage::tess_eval;
-  requireFitting(stage, !options.pixel.empty(), stage == Stage::fragment, "--pixel");
+  const bool whole_run = options.at.empty() && options.hit < 0;
+  requireFitting(stage, !options.pixel.empty(),
+                 stage == Stage::fragment || (whole_run && stage != Stage::compute), "--pixel");
   requireFitting(stage, options.vertex >= 0, stage == Stage::vertex || patches, "--vertex");
   requireFitting(stage, options.instance >= 0,
                  stage == Stage::vertex || stage == Stage::geometry || stage == Stage::tess_control,
@@ -99,7 +105,11 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
   auto options = std::make_shared<DebugOptions>();
   addCommonOptions(*command, common);
   addSelectionOptions(*command, common);
-  command->add_option("--pixel", options->pixel, "the fragment on this pixel, from the lower left")
+  command
+      ->add_option(
+          "--pixel", options->pixel,
+          "the fragment on this pixel, from the lower left; with --stage vertex or tess-control: the runs "
+          "that it comes from")
       ->type_name("X,Y");
   command
       ->add_option("--hit", options->hit,

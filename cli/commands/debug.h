@@ -35,6 +35,8 @@ std::optional<std::vector<std::int32_t>> chosenThread(session::Stage, const Debu
 
 // The whole run of the thread on --pixel, or, of other stages, of the one chosen.
 int debugThread(session::Session&, const Common&, const DebugOptions&);
+// The runs of the selected stage, which is an earlier one, that the fragment on --pixel comes from.
+int debugOrigin(session::Session&, const Common&, const DebugOptions&);
 // Values at --at over all threads.
 int debugValues(session::Session&, const Common&, const DebugOptions&);
 // Values at --at of the fragment --hit on --pixel.

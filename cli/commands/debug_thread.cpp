@@ -5,6 +5,7 @@
 
 #include "cli/commands/debug.h"
 #include "profiler/pictures/files.h"
+#include "session/fragment_origin.h"
 #include "session/plan.h"
 #include "session/probed_run.h"
 #include "session/thread_run.h"
@@ -231,6 +232,14 @@ ThreadRun follow(session::Session& session, const DebugOptions& options) {
 
 }  // namespace
 
+namespace {
+
+int statusOf(const ThreadRun& run) {
+  return run.check.compared_at_all && !run.check.identical() ? static_cast<int>(session::Outcome::failed) : 0;
+}
+
+}  // namespace
+
 int debugThread(session::Session& session, const Common& common, const DebugOptions& options) {
   const ThreadRun run = follow(session, options);
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(run));
@@ -241,7 +250,38 @@ int debugThread(session::Session& session, const Common& common, const DebugOpti
   } else {
     std::cout << asText(session.shader(), session.stop(), session.facts(), options.fragments, run);
   }
-  return run.check.compared_at_all && !run.check.identical() ? static_cast<int>(session::Outcome::failed) : 0;
+  return statusOf(run);
+}
+
+int debugOrigin(session::Session& session, const Common& common, const DebugOptions& options) {
+  if (!options.csv.empty())
+    throw session::Error(session::Outcome::usage,
+                         "--csv is about one run; --pixel names those of a primitive here");
+  const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
+  const session::FragmentOrigin origin = session::originOf(session, pixel[0], pixel[1], session.stage());
+  Json runs = Json::array();
+  std::string text;
+  int status = 0;
+  for (const std::vector<std::int32_t>& thread : origin.threads) {
+    const ThreadRun run = session::followThread(session, thread);
+    status = std::max(status, statusOf(run));
+    if (common.json)
+      runs.push_back(asJson(session.shader(), run));
+    else
+      text += asText(session.shader(), session.stop(), session.facts(), options.fragments, run);
+  }
+  if (common.json) {
+    Json document;
+    document["fragment"] = {{"x", pixel[0]}, {"y", pixel[1]}, {"primitive", origin.primitive}};
+    document["runs"] = std::move(runs);
+    document["fragments"] = toJson(options.fragments);
+    print(document);
+  } else {
+    std::cout << "the fragment on pixel " << options.pixel << " comes from primitive " << origin.primitive
+              << ": " << origin.threads.size() << (origin.threads.size() == 1 ? " run" : " runs") << "\n\n"
+              << text;
+  }
+  return status;
 }
 
 }  // namespace shadestep::cli

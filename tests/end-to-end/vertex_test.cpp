@@ -132,7 +132,7 @@ TEST(VertexSelection, SaysWhatThereIs) {
   EXPECT_NE(beyond.err.find("vertex 4 to 9, instance 0 to 1"), std::string::npos) << beyond.err;
   EXPECT_EQ(debug({"--stage", "vertex", "--at", "21", "--print", "key", "--vertex", "8"}).status, 3);
   EXPECT_EQ(debug({"--stage", "geometry", "--primitive", "0"}).status, 3);
-  EXPECT_EQ(debug({"--stage", "vertex", "--pixel", "1,1"}).status, 2);
+  EXPECT_EQ(debug({"--stage", "vertex", "--at", "21", "--print", "key", "--pixel", "1,1"}).status, 2);
   EXPECT_EQ(debug({"--stage", "fragment", "--vertex", "1"}).status, 2);
   EXPECT_EQ(debug({"--stage", "vertex", "--at", "21", "--print", "key", "--image", "a.png"}).status, 2);
   EXPECT_EQ(debug({"--draw", "3", "--pixel", "1,1"}).status, 3);  // no fragment shader there
