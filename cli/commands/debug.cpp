@@ -11,9 +11,10 @@ void requireOneFragment(const DebugOptions& options) {
   if (options.pixel.empty()) {
     throw session::Error(session::Outcome::usage, "--hit needs --pixel X,Y, which says where");
   }
-  if (!options.image.empty() || !options.csv.empty() || options.plan != "auto") {
-    throw session::Error(session::Outcome::usage,
-                         "--image, --csv and --plan are about all threads; with --at, --hit is about one");
+  if (!options.image.empty() || !options.csv.empty() || !options.scatter.empty() || options.plan != "auto") {
+    throw session::Error(
+        session::Outcome::usage,
+        "--image, --csv, --scatter and --plan are about all threads; with --at, --hit is about one");
   }
 }
 
@@ -50,8 +51,10 @@ int run(const Common& common, const DebugOptions& options) {
                                                       threadOptions(stage) +
                                                       ", or which place with --at LINE --print NAMES");
   }
-  if (options.at.empty() && !(options.print.empty() && options.image.empty() && options.iteration.empty())) {
-    throw session::Error(session::Outcome::usage, "--print, --image and --iteration go with --at LINE");
+  if (options.at.empty() && !(options.print.empty() && options.image.empty() && options.scatter.empty() &&
+                              options.iteration.empty())) {
+    throw session::Error(session::Outcome::usage,
+                         "--print, --image, --scatter and --iteration go with --at LINE");
   }
   if (!options.at.empty() && options.hit >= 0) requireOneFragment(options);
   session::Session session(common.launchOptions());
@@ -155,6 +158,11 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
       ->add_option("--csv", options->csv,
                    "the printed values, a row per thread (with --pixel alone: a row per step)")
       ->type_name("F");
+  command
+      ->add_option(
+          "--scatter", options->scatter,
+          "the first two printed components against each other, a point per thread, coloured by the third")
+      ->type_name("F.png");
   command
       ->add_option(
           "--plan", options->plan,

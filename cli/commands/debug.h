@@ -23,7 +23,7 @@ struct DebugOptions {
   std::string print;
   bool after = false;
   std::string image;
-  std::string csv;
+  std::string csv, scatter;
   std::string plan = "auto";
   bool let_run = false;
   FragmentOptions fragments;

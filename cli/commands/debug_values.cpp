@@ -3,6 +3,7 @@
 
 #include "cli/commands/debug.h"
 #include "profiler/pictures/files.h"
+#include "profiler/pictures/scatter_plot.h"
 #include "profiler/pictures/value_image.h"
 #include "session/hit_values.h"
 #include "session/plan.h"
@@ -196,6 +197,42 @@ void writeImage(const std::string& path, const ThreadValues& threads, const Debu
   }
 }
 
+// The printed values' components over the threads that got there, in order.
+std::vector<profiler::ScatterAxis> axesOf(const ThreadValues& threads) {
+  std::vector<profiler::ScatterAxis> axes;
+  for (const WatchedValues& watched : threads.values) {
+    if (!watched.no_value.empty()) continue;
+    std::size_t word = 0;
+    for (const auto& component : frontend::components(watched.type)) {
+      profiler::ScatterAxis axis;
+      axis.name = watched.name + component.access;
+      for (std::size_t p = 0; p < threads.marks.size(); ++p) {
+        if (threads.reachedAt(p))
+          axis.values.push_back(session::componentAsDouble(component.basic, watched.at(p) + word));
+      }
+      axes.push_back(std::move(axis));
+      word += static_cast<std::size_t>(session::wordsPerComponent(component.basic));
+    }
+  }
+  return axes;
+}
+
+void writeScatter(const std::string& path, const ThreadValues& threads, const DebugOptions& options) {
+  std::vector<profiler::ScatterAxis> axes = axesOf(threads);
+  if (axes.size() < 2)
+    throw session::Error(
+        session::Outcome::usage,
+        "--scatter shows two printed values against each other, coloured by a third: --print X,Y[,C]");
+  profiler::ScatterPlot plot;
+  plot.title = axes[1].name + " over " + axes[0].name;
+  plot.subtitle = std::string(options.after ? "after" : "before") + " line " + options.at + ", " +
+                  withThousands(threads.reached) + " threads";
+  plot.x = std::move(axes[0]);
+  plot.y = std::move(axes[1]);
+  if (axes.size() > 2) plot.shade = std::move(axes[2]);
+  profiler::writeFile(path, profiler::drawScatterPlot(plot));
+}
+
 // For one place a single probe is the cheapest.
 ThreadValues look(session::Session& session, const session::PlaceSelection& place,
                   const DebugOptions& options) {
@@ -228,6 +265,7 @@ int debugValues(session::Session& session, const Common& common, const DebugOpti
     for (const std::string& file : splitList(options.image)) writeImage(common.inOut(file), threads, options);
   }
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), session::asCsv(threads));
+  if (!options.scatter.empty()) writeScatter(common.inOut(options.scatter), threads, options);
   if (common.json) {
     Json document = asJson(threads, picked);
     document["fragments"] = toJson(options.fragments);
