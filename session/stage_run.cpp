@@ -13,6 +13,7 @@ using instrumenter::Probe;
 
 const char* const kPatchVertices = "gl_PatchVerticesIn";
 constexpr int kUnlimited = 1 << 30;
+constexpr int kWidestInput = 512;  // words; wider ones are not among a run's inputs
 
 bool ofPatch(const Shader& shader) {
   return shader.stage == Stage::tess_control || shader.stage == Stage::tess_eval;
@@ -42,10 +43,11 @@ Probe inputsProbe(const Shader& shader) {
     const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(id)];
     const bool given = variable.storage == frontend::Storage::in ||
                        (variable.storage == frontend::Storage::builtin && !variable.written);
-    if (!given || !variable.read || frontend::wordCount(variable.type) == 0) continue;
+    if (!given || !variable.read) continue;
+    const int words = frontend::wordCount(variable.type);
     if (variable.name == "gl_in" && variable.type.isArray() && variable.type.members)
       watchBlocks(shader, id, probe.watches);
-    else
+    else if (words > 0 && words <= kWidestInput)
       probe.watches.push_back({variable.name, id, variable.type});
   }
   if (ofPatch(shader)) {
