@@ -1,12 +1,12 @@
 // What a geometry shader emits: every vertex with the values of the outputs, appended to a list, in one pass
 // over the program's own emits (thesis 7.1.3 needs two, of transform feedback).
 //
-//   EmitVertex();              ->   sd_emit_vertex();                  void sd_emit_vertex() { sd_emit(0);
-//   EmitVertex(); } EmitStreamVertex(1);       ->   (sd_emit(1), EmitStreamVertex(1)); EndPrimitive(); ->
-//   sd_end_primitive(); EndStreamPrimitive(1);     ->   (sd_end_strip(1), EndStreamPrimitive(1));
+// EmitVertex() becomes sd_emit_vertex(), which lists the vertex and then emits it; EmitStreamVertex(1)
+// becomes (sd_emit(1), EmitStreamVertex(1)); EndPrimitive and EndStreamPrimitive likewise.
 #include <algorithm>
 
 #include "instrumenter/attachments.h"
+#include "instrumenter/constructs/declaration.h"
 #include "instrumenter/storage.h"
 
 namespace shadestep::instrumenter {
@@ -23,16 +23,6 @@ const std::string& textAt(const Shader& shader, TokenIndex i) {
   return shader.tokens[static_cast<std::size_t>(i)].text;
 }
 
-TokenIndex closingOf(const Shader& shader, TokenIndex open) {
-  int depth = 0;
-  const auto count = static_cast<TokenIndex>(shader.tokens.size());
-  for (TokenIndex i = open; i < count; ++i) {
-    if (textAt(shader, i) == "(") ++depth;
-    if (textAt(shader, i) == ")" && --depth == 0) return i;
-  }
-  return frontend::kNone;
-}
-
 std::string argumentOf(const Shader& shader, TokenIndex open, TokenIndex close) {
   std::string text;
   for (TokenIndex i = open + 1; i < close; ++i) text += textAt(shader, i) + " ";
@@ -47,7 +37,7 @@ void replaceEmits(Draft& draft) {
     if (name == "EmitVertex") draft.edits.replace(i, draft.name("emit_vertex"));
     if (name == "EndPrimitive") draft.edits.replace(i, draft.name("end_primitive"));
     const bool emits = name == "EmitStreamVertex";
-    const TokenIndex close = closingOf(shader, i + 1);
+    const TokenIndex close = matchingBracket(shader, i + 1);
     if ((!emits && name != "EndStreamPrimitive") || close == frontend::kNone) continue;
     draft.edits.wrap(
         {i, close},
@@ -79,8 +69,7 @@ Result<EmitsShader> instrumentEmits(const Shader& shader, const Target& target) 
   std::vector<std::string> values = {thread, "stream", strips + "[stream]", vertices};
   for (const frontend::VariableId id : stageOutputs(shader)) {
     const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(id)];
-    if (frontend::wordCount(variable.type) == 0) continue;
-    if (attachments.add(variable.name, variable.type))
+    if (frontend::wordCount(variable.type) > 0 && attachments.add(variable.name, variable.type))
       values.push_back(variable.name);
     else
       emits.left_out.push_back(variable.name);
@@ -111,7 +100,7 @@ EmitLimits emitLimits(const Shader& shader) {
   const auto count = static_cast<TokenIndex>(shader.tokens.size());
   for (TokenIndex i = 0; i + 1 < count; ++i) {
     if (textAt(shader, i) != "layout" || textAt(shader, i + 1) != "(") continue;
-    const TokenIndex close = closingOf(shader, i + 1);
+    const TokenIndex close = matchingBracket(shader, i + 1);
     if (close == frontend::kNone || close + 1 >= count || textAt(shader, close + 1) != "out") continue;
     for (TokenIndex k = i + 2; k < close; ++k) {
       const std::string& word = textAt(shader, k);

@@ -4,7 +4,8 @@
 // In every instrumented text the user's own tokens stand unchanged and in order, with insertions; the only
 // replacements are the name of `main` (wrapped, so that captured words are written at every end of the
 // thread; constructs/main.h), the names of functions cloned along a call path, `discard`
-// (constructs/discard.h) and gl_FragColor (constructs/fragment_outputs.h).
+// (constructs/discard.h), gl_FragColor (constructs/fragment_outputs.h), and EmitVertex and EndPrimitive where
+// emits are listed (emits.cpp).
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,7 @@ std::string blockOf(const Shader& shader, const Variable& variable) {
 // Structs and arrays of them fall into what they are made of.
 void addLeaves(const std::string& name, const Type& type, std::vector<FeedbackOutput>& outputs) {
   if (type.basic != frontend::Basic::struct_) {
-    if (frontend::wordCount(type) > 0) outputs.push_back({name, type});
+    outputs.push_back({name, type});  // also what has no known size, to be named
   } else if (type.isArray()) {
     for (int i = 0; i < type.array.front(); ++i)
       addLeaves(name + "[" + std::to_string(i) + "]", type.element(), outputs);
@@ -56,6 +56,13 @@ void addLeaves(const std::string& name, const Type& type, std::vector<FeedbackOu
     for (const frontend::Member& member : type.members->members)
       addLeaves(name + "." + member.name, member.type, outputs);
   }
+}
+
+bool enables(const Shader& shader, const std::string& extension) {
+  return std::any_of(shader.tokens.begin(), shader.tokens.end(), [&](const frontend::Token& token) {
+    return token.kind == frontend::TokenKind::directive && token.text.find(extension) != std::string::npos &&
+           token.text.find("disable") == std::string::npos;
+  });
 }
 
 }  // namespace
@@ -71,7 +78,8 @@ std::vector<Identity> identityOf(const Shader& shader, const Target& target) {
               {"u", "gl_TessCoord.x", "", frontend::Basic::float_},
               {"v", "gl_TessCoord.y", "", frontend::Basic::float_}};
     case Stage::geometry:
-      if (!isEs(shader) && shader.version < 400) return {{"primitive", "gl_PrimitiveIDIn", ""}};
+      if (!isEs(shader) && shader.version < 400 && !enables(shader, "GL_ARB_gpu_shader5"))
+        return {{"primitive", "gl_PrimitiveIDIn", ""}};
       return {{"primitive", "gl_PrimitiveIDIn", ""}, {"invocation", "gl_InvocationID", ""}};
     case Stage::compute:
       return {{"x", "int(gl_GlobalInvocationID.x)", ""},

@@ -133,8 +133,13 @@ GeometryEmits geometryEmits(Session& session) {
   emits.check = captured.execution.check;
   std::string left_out;
   for (const std::string& name : shader.left_out) left_out += (left_out.empty() ? "" : ", ") + name;
-  if (!left_out.empty() && emits.check.left_out.empty())
-    emits.check.left_out = "too large to be listed with each vertex: " + left_out;
+  if (!left_out.empty())
+    emits.check.left_out += (emits.check.left_out.empty() ? "" : "; ") +
+                            ("not listed with each vertex, too large or of unknown size: " + left_out);
+  if (emits.max_vertices < 0)
+    emits.check.left_out +=
+        (emits.check.left_out.empty() ? "" : "; ") +
+        std::string("max_vertices is no plain number: vertices beyond it are listed, too");
   Reader(captured, emits).read();
   return emits;
 }

@@ -23,10 +23,8 @@ void requireTold(Session& session) {
   const DrawStop& stop = session.stop();
   if (has(facts, Stage::geometry))
     cannotTell("the program has a geometry shader; 'shadestep primitives' shows what it makes of each");
-  if (stop.instances != 1)
-    cannotTell("the draw has several instances, whose primitives have the same numbers");
-  if (stop.call.find("Multi") != std::string::npos || stop.call.find("CallList") != std::string::npos)
-    cannotTell(stop.call + " is several draws, whose primitives have the same numbers");
+  if (!drawsOnce(stop))
+    cannotTell("the draw has several instances, or is several draws, whose primitives have the same numbers");
   for (const auto& [name, value] : session.glState()) {
     const bool restarts = name == "GL_PRIMITIVE_RESTART" || name == "GL_PRIMITIVE_RESTART_FIXED_INDEX";
     if (restarts && value != "0" && stop.call.find("Elements") != std::string::npos)
@@ -34,7 +32,13 @@ void requireTold(Session& session) {
   }
 }
 
-int primitiveAt(Session& session, int x, int y) {
+void add(FragmentOrigin& origin, const Check& check) {
+  if (check.compared_at_all && !check.identical())
+    cannotTell("the instrumented draw differs from the program's own");
+  origin.check.merge(check);
+}
+
+FragmentOrigin primitiveAt(Session& session, int x, int y) {
   session.select(Stage::fragment);
   session.requireCapturable();
   const frontend::Shader& shader = session.shader();
@@ -53,12 +57,13 @@ int primitiveAt(Session& session, int x, int y) {
   const ThreadValues values = valuesAt(session, probe);
   const auto pixel =
       static_cast<std::size_t>(y) * static_cast<std::size_t>(facts.width) + static_cast<std::size_t>(x);
-  if (!values.reachedAt(pixel))
+  if (!values.reachedAt(pixel) || (values.marks[pixel] & instrumenter::kDiscarded) != 0)
     throw Error(Outcome::nothing_matches,
                 "the draw shows no fragment on pixel " + std::to_string(x) + "," + std::to_string(y));
-  if (values.check.compared_at_all && !values.check.identical())
-    cannotTell("the instrumented draw differs from the program's own");
-  return static_cast<std::int32_t>(*values.values.at(0).at(pixel));
+  FragmentOrigin origin;
+  origin.primitive = static_cast<std::int32_t>(*values.values.at(0).at(pixel));
+  add(origin, values.check);
+  return origin;
 }
 
 // Where in the draw's sequence of vertices those of a primitive stand (OpenGL 4.6, 10.1).
@@ -84,7 +89,7 @@ std::vector<int> verticesOf(std::uint32_t mode, int p, int count) {
 }
 
 // The vertices as the draw issues them, which those of a capture by transform feedback are.
-FragmentOrigin fromVertices(Session& session, int primitive) {
+void fromVertices(Session& session, FragmentOrigin& origin) {
   const frontend::Shader& shader = session.shader();
   Probe probe;
   probe.statement = shader.functions[static_cast<std::size_t>(shader.main)].body;
@@ -93,29 +98,30 @@ FragmentOrigin fromVertices(Session& session, int primitive) {
   const Captured issued = session.capture(std::get<instrumenter::AttachmentShader>(instrumented));
   if (issued.layout.carrier == instrumenter::Carrier::list || issued.layout.identity.empty())
     cannotTell("this needs transform feedback, and gl_VertexID in the vertex shader");
-  FragmentOrigin origin{primitive, {}};
-  for (const int number : verticesOf(session.stop().mode, primitive, issued.threads.width)) {
+  add(origin, issued.execution.check);
+  for (const int number : verticesOf(session.stop().mode, origin.primitive, issued.threads.width)) {
     if (number >= issued.threads.width) cannotTell("the draw has fewer vertices than its primitives need");
-    std::vector<std::int32_t> identity;
+    ThreadName name;
     for (const instrumenter::Field& field : issued.layout.identity)
-      identity.push_back(static_cast<std::int32_t>(
-          instrumenter::decode(issued.layout, field, issued.threads.at(number, 0)).words.at(0)));
-    origin.threads.push_back(std::move(identity));
+      name.emplace_back(
+          field.name,
+          static_cast<std::int32_t>(
+              instrumenter::decode(issued.layout, field, issued.threads.at(number, 0)).words.at(0)));
+    origin.threads.push_back(std::move(name));
   }
-  return origin;
 }
 
-FragmentOrigin fromPatch(Session& session, int patch) {
+void fromPatch(Session& session, FragmentOrigin& origin) {
   Probe probe;
   const frontend::Shader& shader = session.shader();
   probe.statement = shader.functions[static_cast<std::size_t>(shader.main)].body;
   const ThreadValues threads = valuesAt(session, probe);
-  FragmentOrigin origin{patch, {}};
+  add(origin, threads.check);
   for (std::size_t i = 0; i < threads.marks.size(); ++i) {
-    if (static_cast<std::int32_t>(*threads.identity.at(0).at(i)) == patch)
-      origin.threads.push_back({patch, static_cast<std::int32_t>(*threads.identity.at(1).at(i))});
+    if (static_cast<std::int32_t>(*threads.identity.at(0).at(i)) == origin.primitive)
+      origin.threads.push_back({{"primitive", origin.primitive},
+                                {"vertex", static_cast<std::int32_t>(*threads.identity.at(1).at(i))}});
   }
-  return origin;
 }
 
 }  // namespace
@@ -123,18 +129,22 @@ FragmentOrigin fromPatch(Session& session, int patch) {
 FragmentOrigin originOf(Session& session, int x, int y, Stage stage) {
   requireTold(session);
   const bool patches = has(session.facts(), Stage::tess_eval);
-  const int primitive = primitiveAt(session, x, y);
-  const std::string from = "the fragment comes from patch " + std::to_string(primitive);
+  FragmentOrigin origin = primitiveAt(session, x, y);
+  const std::string from = "the fragment comes from patch " + std::to_string(origin.primitive);
   if (patches && stage == Stage::vertex)
     throw Error(Outcome::cannot_debug,
                 from + "; --stage tess-control shows its runs, with what the vertices gave them");
   if (stage == Stage::tess_eval)
     throw Error(Outcome::cannot_debug,
                 from + ", but which of its generated vertices made it is not known; --primitive " +
-                    std::to_string(primitive) + " --vertex N shows one");
+                    std::to_string(origin.primitive) + " --vertex N shows one");
   session.select(stage);
   session.requireCapturable();
-  return stage == Stage::vertex ? fromVertices(session, primitive) : fromPatch(session, primitive);
+  if (stage == Stage::vertex)
+    fromVertices(session, origin);
+  else
+    fromPatch(session, origin);
+  return origin;
 }
 
 }  // namespace shadestep::session

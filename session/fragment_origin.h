@@ -10,7 +10,8 @@ namespace shadestep::session {
 
 struct FragmentOrigin {
   int primitive = 0;  // gl_PrimitiveID of the fragment: the primitive, or the patch, of the draw
-  std::vector<std::vector<std::int32_t>> threads;  // identities, in the order of the primitive's vertices
+  Check check;        // of the draws that told
+  std::vector<ThreadName> threads;  // in the order of the primitive's vertices
 };
 
 // Of the visible fragment on a pixel: its primitive's vertices (Stage::vertex), or the runs on its patch

@@ -100,6 +100,11 @@ constexpr std::pair<Stage, const char*> kStageNames[] = {
 };
 }  // namespace
 
+bool drawsOnce(const DrawStop& stop) {
+  return stop.instances == 1 && stop.call.find("Multi") == std::string::npos &&
+         stop.call.find("CallList") == std::string::npos;
+}
+
 const char* stageName(Stage stage) {
   for (const auto& [value, name] : kStageNames) {
     if (value == stage) return name;

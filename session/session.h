@@ -43,7 +43,7 @@ struct LaunchOptions {
   // Watch the program by ptrace, so that a crash is told with its thread; where that is not permitted it goes
   // without.
   bool ptrace = true;
-  bool follow = true;  // debug processes that the program starts, too
+  bool follow = true;               // debug processes that the program starts, too
   std::chrono::seconds timeout{0};  // for the program to reach what is asked for; 0 = no limit
 };
 
@@ -60,6 +60,13 @@ struct DrawStop {
   std::int64_t count = -1;  // vertices or indices per instance; -1 = not known on the CPU
   std::int64_t instances = 1;
 };
+// Whether the call is one draw of one instance, in which no two primitives have the same number.
+bool drawsOnce(const DrawStop&);
+
+// A thread by the numbers of its identity (ThreadValues::identity), with their names. Those left out are 0.
+// Of threads that are told apart by coordinates (`u` and `v`), "vertex" says which of those with the same
+// numbers otherwise.
+using ThreadName = std::vector<std::pair<std::string, std::int32_t>>;
 
 struct StageFacts {
   Stage stage = Stage::fragment;

@@ -73,7 +73,7 @@ ComparedOutputs comparedOutputs(const frontend::Shader& last, int components) {
   bool doubles = false;
   for (const instrumenter::FeedbackOutput& output : outputs) {
     const int words = frontend::wordCount(output.type);
-    if (compared.words + words + 1 > components - kLeastRoom) {
+    if (words == 0 || compared.words + words + 1 > components - kLeastRoom) {
       compared.left_out += (compared.left_out.empty() ? "" : ", ") + output.name;
       continue;
     }
@@ -103,7 +103,9 @@ Prepared Session::prepareStages(const std::string& text, const AttachmentLayout&
     prepare.feedback_outputs = std::move(outputs.names);
     if (!outputs.left_out.empty())
       uncompared =
-          "transform feedback has no room for these outputs, which are not compared: " + outputs.left_out;
+          "these outputs are not compared, for which transform feedback has no room or whose size is not "
+          "known: " +
+          outputs.left_out;
   }
   const bool with_outputs = !prepare.feedback_outputs.empty();
   Prepared prepared;

@@ -72,8 +72,24 @@ bool isPerVertex(const Shader& shader, const std::string& name) {
   return false;
 }
 
+// Whether all threads with the numbers of this one, save `repeat`, have its value.
+bool agrees(const ThreadValues& threads, const WatchedValues& values, std::size_t thread) {
+  const auto same = [&](std::size_t p) {
+    return threads.marks[p] != 0 &&
+           std::all_of(threads.identity.begin(), threads.identity.end(), [&](const WatchedValues& one) {
+             return one.name == "repeat" || *one.at(p) == *one.at(thread);
+           });
+  };
+  for (std::size_t p = 0; p < threads.marks.size(); ++p)
+    if (same(p) && !std::equal(values.at(p), values.at(p) + values.stride, values.at(thread))) return false;
+  return true;
+}
+
 // The inputs of a thread: of a patch only the vertices that it has.
-std::vector<NamedValue> inputsOf(const Shader& shader, const ThreadValues& threads, std::size_t thread) {
+// Threads with the same numbers are told apart by their order alone, which a second draw, the one that gives
+// the inputs, need not keep: an input that they do not agree on goes to `ambiguous`.
+std::vector<NamedValue> inputsOf(const Shader& shader, const ThreadValues& threads, std::size_t thread,
+                                 std::string& ambiguous) {
   const int vertices =
       ofPatch(shader) ? static_cast<std::int32_t>(*threads.values.back().at(thread)) : kUnlimited;
   std::vector<NamedValue> inputs;
@@ -81,6 +97,10 @@ std::vector<NamedValue> inputsOf(const Shader& shader, const ThreadValues& threa
     if (ofPatch(shader) && &one == &threads.values.back()) break;
     const bool of_block = one.name.starts_with("gl_in[");
     if (of_block && std::stoi(one.name.substr(std::string("gl_in[").size())) >= vertices) continue;
+    if (!agrees(threads, one, thread)) {
+      ambiguous += (ambiguous.empty() ? "" : ", ") + one.name;
+      continue;
+    }
     NamedValue input{one.name, one.valueAt(thread)};
     frontend::Type& type = input.value.type;
     if (isPerVertex(shader, one.name) && type.array.front() > vertices) {
@@ -102,15 +122,15 @@ std::string range(const WatchedValues& numbers) {
 }
 
 // Coordinates are no numbers to ask for: threads that they tell apart are counted.
-[[noreturn]] void noSuchThread(const ThreadValues& threads, const std::vector<std::int32_t>& wanted) {
+[[noreturn]] void noSuchThread(const ThreadValues& threads, const ThreadName& wanted) {
   std::string asked;
   std::string there;
   bool counted = false;
-  for (std::size_t i = 0; i < threads.identity.size() && !counted; ++i) {
-    const WatchedValues& numbers = threads.identity[i];
-    counted = numbers.type.basic == frontend::Basic::float_;
-    const std::int32_t number = i < wanted.size() ? wanted[i] : 0;
-    asked += (asked.empty() ? "" : ", ") + (counted ? "vertex" : numbers.name) + " " + std::to_string(number);
+  for (const auto& [part, number] : wanted)
+    if (number != 0 || part != "repeat")
+      asked += (asked.empty() ? "" : ", ") + part + " " + std::to_string(number);
+  for (const WatchedValues& numbers : threads.identity) {
+    counted = counted || numbers.type.basic == frontend::Basic::float_;
     if (!counted && !numbers.words.empty()) there += (there.empty() ? "" : ", ") + range(numbers);
   }
   if (counted) there += " with " + std::to_string(threads.launched) + " generated vertices in all";
@@ -132,11 +152,11 @@ std::vector<std::int32_t> numbersOf(const ThreadValues& threads, std::size_t thr
 
 }  // namespace
 
-ThreadRun followThread(Session& session, const std::vector<std::int32_t>& identity) {
+ThreadRun followThread(Session& session, const ThreadName& name) {
   const Shader& shader = session.shader();
   const ThreadValues inputs = valuesAt(session, inputsProbe(shader));
-  const std::optional<std::size_t> number = inputs.find(identity);
-  if (!number) noSuchThread(inputs, identity);
+  const std::optional<std::size_t> number = inputs.find(name);
+  if (!number) noSuchThread(inputs, name);
 
   auto instrumented = instrumenter::instrumentRecording(shader, session.target());
   ThreadRun run;
@@ -145,7 +165,7 @@ ThreadRun followThread(Session& session, const std::vector<std::int32_t>& identi
     std::size_t repeat = 0;
     const std::vector<std::int32_t> numbers = numbersOf(inputs, *number, repeat);
     const Session::Recorded recorded = session.record({std::move(*recording), std::move(program)}, numbers);
-    if (recorded.recording.threads.size() <= repeat) noSuchThread(inputs, identity);
+    if (recorded.recording.threads.size() <= repeat) noSuchThread(inputs, name);
     const instrumenter::ThreadRecording& thread = recorded.recording.threads[repeat];
     run.steps = stepsOf(shader, recorded.layout, thread);
     run.complete = thread.complete;
@@ -154,7 +174,12 @@ ThreadRun followThread(Session& session, const std::vector<std::int32_t>& identi
     run = followThreadByProbes(session, *number);
   }
   for (const WatchedValues& one : inputs.identity) run.identity.push_back({one.name, one.valueAt(*number)});
-  run.inputs = inputsOf(shader, inputs, *number);
+  std::string ambiguous;
+  run.inputs = inputsOf(shader, inputs, *number, ambiguous);
+  run.check.merge(inputs.check);
+  if (!ambiguous.empty())
+    run.check.left_out += (run.check.left_out.empty() ? "" : "; ") +
+                          ("inputs that differ among the threads with these numbers: " + ambiguous);
   return run;
 }
 

@@ -70,9 +70,9 @@ struct ThreadRun {
 // storage buffers, only the visible fragment can be followed, by one redraw per step (probed_run.h).
 ThreadRun followPixel(Session&, int x, int y, int hit = -1);
 
-// The same of a thread of the selected stage, which is another one, by its identity (ThreadValues::find).
+// The same of a thread of the selected stage, which is another one, by its name.
 // Throws nothing_matches, saying what there is.
-ThreadRun followThread(Session&, const std::vector<std::int32_t>& identity);
+ThreadRun followThread(Session&, const ThreadName&);
 
 // Number of the recorded thread that the pixel shows; -1 if it shows none of them.
 int visibleThread(const Session::Recorded&, int x, int y);

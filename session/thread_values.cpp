@@ -158,6 +158,23 @@ WatchedValues valuesOf(const ThreadWords& threads, const instrumenter::Attachmen
   return values;
 }
 
+[[noreturn]] void disagree() {
+  throw Error(Outcome::failed,
+              "two passes of one probe disagree about which threads got there; "
+              "the draw does not repeat exactly, so its values cannot be trusted");
+}
+
+void requireSameThreads(const ThreadValues& known, const ThreadWords& threads,
+                        const instrumenter::AttachmentLayout& layout) {
+  const std::size_t count = known.marks.size();
+  if (static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(threads.height) != count) disagree();
+  for (std::size_t i = 0; i < std::min(known.identity.size(), layout.identity.size()); ++i) {
+    const WatchedValues now =
+        valuesOf(threads, layout, layout.identity[i], [&](std::size_t p) { return known.marks[p] != 0; });
+    if (now.words != known.identity[i].words) disagree();
+  }
+}
+
 }  // namespace
 
 void addPass(ThreadValues& result, const ThreadWords& threads, const instrumenter::AttachmentLayout& layout,
@@ -173,14 +190,13 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
     result.check = check;
   } else {
     result.check.merge(check);
+    requireSameThreads(result, threads, layout);
   }
   for (std::size_t p = 0; p < pixels; ++p) {
     const auto mark =
         static_cast<std::uint8_t>(instrumenter::decodeMark(layout, threads.data.data() + p * stride));
     if (!first && mark != result.marks[p]) {
-      throw Error(Outcome::failed,
-                  "two passes of one probe disagree about which threads got there; "
-                  "the draw does not repeat exactly, so its values cannot be trusted");
+      disagree();
     }
     result.marks[p] = mark;
     if (!first) continue;
@@ -198,17 +214,27 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
         valuesOf(threads, layout, field, [&](std::size_t p) { return result.reachedAt(p); }));
 }
 
-std::optional<std::size_t> ThreadValues::find(const std::vector<std::int32_t>& wanted) const {
-  std::vector<std::int32_t> numbers = wanted;
-  numbers.resize(identity.size() + 1);
-  // Coordinates, which follow on the numbers, are counted.
-  std::size_t whole = 0;
-  while (whole < identity.size() && identity[whole].type.basic == frontend::Basic::int_) ++whole;
-  std::int32_t before = whole < identity.size() ? numbers[whole] : 0;
+std::optional<std::size_t> ThreadValues::find(const ThreadName& name) const {
+  const auto numbers = [](const WatchedValues& one) { return one.type.basic == frontend::Basic::int_; };
+  const bool counted = !std::all_of(identity.begin(), identity.end(), numbers);
+  std::int32_t before = 0;
+  std::vector<std::pair<const WatchedValues*, std::int32_t>> wanted;
+  for (const WatchedValues& one : identity)
+    if (numbers(one)) wanted.emplace_back(&one, 0);
+  for (const auto& [part, number] : name) {
+    const auto known = std::find_if(wanted.begin(), wanted.end(),
+                                    [&part = part](const auto& one) { return one.first->name == part; });
+    if (known != wanted.end())
+      known->second = number;
+    else if (counted && part == "vertex")
+      before = number;
+    else if (number != 0)
+      return std::nullopt;  // none has such a number
+  }
   for (std::size_t p = 0; p < marks.size(); ++p) {
-    bool same = marks[p] != 0;
-    for (std::size_t i = 0; i < whole; ++i)
-      same = same && static_cast<std::int32_t>(*identity[i].at(p)) == numbers[i];
+    const bool same = marks[p] != 0 && std::all_of(wanted.begin(), wanted.end(), [p](const auto& one) {
+                        return static_cast<std::int32_t>(*one.first->at(p)) == one.second;
+                      });
     if (same && before-- == 0) return p;
   }
   return std::nullopt;
@@ -297,19 +323,19 @@ void numberRepeats(ThreadValues& threads) {
 
 }  // namespace
 
-void nameThreads(ThreadValues& threads, Stage stage, std::int64_t instances) {
+void nameThreads(ThreadValues& threads, Stage stage, const DrawStop& stop) {
   const std::size_t count = threads.marks.size();
   if (threads.identity.empty()) {
     threads.identity = {numbers("vertex", count), numbers("instance", count)};
     const std::size_t each =
-        std::max<std::size_t>(count / static_cast<std::size_t>(std::max<std::int64_t>(instances, 1)), 1);
+        std::max<std::size_t>(count / static_cast<std::size_t>(std::max<std::int64_t>(stop.instances, 1)), 1);
     for (std::size_t p = 0; p < count; ++p) {
       threads.identity[0].words[p] = static_cast<std::uint32_t>(p % each);
       threads.identity[1].words[p] = static_cast<std::uint32_t>(p / each);
     }
     return;
   }
-  if (stage == Stage::vertex || (stage == Stage::tess_eval && instances <= 1)) keepOneOfEach(threads);
+  if (stage == Stage::vertex || (stage == Stage::tess_eval && drawsOnce(stop))) keepOneOfEach(threads);
   if (stage != Stage::vertex && stage != Stage::compute) numberRepeats(threads);
 }
 
@@ -344,7 +370,7 @@ ThreadValues valuesAt(Session& session, Probe probe) {
     done += watched;
     probe.outcome = false;  // the first pass has it
   } while (done < wanted.size());
-  if (session.stage() != Stage::fragment) nameThreads(result, session.stage(), session.stop().instances);
+  if (session.stage() != Stage::fragment) nameThreads(result, session.stage(), session.stop());
   return result;
 }
 

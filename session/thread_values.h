@@ -45,9 +45,8 @@ struct ThreadValues {
   frontend::StatementId statement = frontend::kNone;
   Check check;
 
-  // The thread with this identity; nothing if there is none. Numbers left out are 0. Of threads that are told
-  // apart by coordinates (`u` and `v`), a number says which of those with the same numbers before it.
-  std::optional<std::size_t> find(const std::vector<std::int32_t>& wanted) const;
+  // The thread of this name; nothing if there is none.
+  std::optional<std::size_t> find(const ThreadName&) const;
   bool reachedAt(std::size_t pixel) const { return (marks[pixel] & instrumenter::kReached) != 0; }
 };
 
@@ -75,7 +74,7 @@ void addPass(ThreadValues&, const ThreadWords&, const instrumenter::AttachmentLa
 // To be called after the last pass: numbers the threads of a dialect that does not tell them apart, and
 // leaves one of those that are the same thread (a vertex that several indices name is one, whatever the
 // driver makes of it; so is a generated one). Others of the same identity get a number each, "repeat".
-void nameThreads(ThreadValues&, Stage, std::int64_t instances);
+void nameThreads(ThreadValues&, Stage, const DrawStop&);
 
 // The statement and call path that a selection means. Throws nothing_matches.
 instrumenter::Probe probeAt(const frontend::Shader&, const PlaceSelection&);

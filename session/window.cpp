@@ -64,7 +64,7 @@ ThreadValues Window::valuesAt(const Probe& wanted) {
   ThreadValues values;
   values.statement = wanted.statement;
   addPass(values, captured.threads, captured.layout, captured.execution.check);
-  if (session_.stage() != Stage::fragment) nameThreads(values, session_.stage(), session_.stop().instances);
+  if (session_.stage() != Stage::fragment) nameThreads(values, session_.stage(), session_.stop());
   return values;
 }
 

@@ -45,7 +45,8 @@ void requireFitting(session::Stage stage, bool given, bool fits, const std::stri
 
 int run(const Common& common, const DebugOptions& options) {
   const session::Stage stage = selectedStage(common);
-  const bool has_thread = !options.pixel.empty() || chosenThread(stage, options).has_value();
+  const bool chosen = chosenThread(stage, options).has_value();
+  const bool has_thread = chosen || !options.pixel.empty();
   if (options.at.empty() && !has_thread) {
     throw session::Error(session::Outcome::usage, std::string("say which thread with ") +
                                                       threadOptions(stage) +
@@ -74,30 +75,34 @@ int run(const Common& common, const DebugOptions& options) {
 
 }  // namespace
 
-std::optional<std::vector<std::int32_t>> chosenThread(session::Stage stage, const DebugOptions& options) {
+std::optional<session::ThreadName> chosenThread(session::Stage stage, const DebugOptions& options) {
   using session::Stage;
   const bool patches = stage == Stage::tess_control || stage == Stage::tess_eval;
   const bool whole_run = options.at.empty() && options.hit < 0;
   requireFitting(stage, !options.pixel.empty(),
                  stage == Stage::fragment || (whole_run && stage != Stage::compute), "--pixel");
   requireFitting(stage, options.vertex >= 0, stage == Stage::vertex || patches, "--vertex");
-  requireFitting(stage, options.instance >= 0,
-                 stage == Stage::vertex || stage == Stage::geometry || stage == Stage::tess_control,
+  requireFitting(stage, options.instance >= 0, stage == Stage::vertex || stage == Stage::geometry || patches,
                  "--instance");
   requireFitting(stage, options.primitive >= 0, patches || stage == Stage::geometry, "--primitive");
   requireFitting(stage, !options.invocation.empty(), stage == Stage::geometry || stage == Stage::compute,
                  "--invocation");
+  const int instance = std::max(options.instance, 0);
   if (stage == Stage::vertex && options.vertex >= 0)
-    return std::vector<std::int32_t>{options.vertex, std::max(options.instance, 0)};
+    return session::ThreadName{{"vertex", options.vertex}, {"instance", instance}};
   if (patches && options.primitive >= 0)
-    return std::vector<std::int32_t>{options.primitive, std::max(options.vertex, 0),
-                                     std::max(options.instance, 0)};
-  if (stage == Stage::compute && !options.invocation.empty())
-    return parseIntegers(options.invocation, "--invocation", 1, 3);
+    return session::ThreadName{
+        {"primitive", options.primitive}, {"vertex", std::max(options.vertex, 0)}, {"repeat", instance}};
+  if (stage == Stage::compute && !options.invocation.empty()) {
+    std::vector<int> at = parseIntegers(options.invocation, "--invocation", 1, 3);
+    at.resize(3);
+    return session::ThreadName{{"x", at[0]}, {"y", at[1]}, {"z", at[2]}};
+  }
   if (stage == Stage::geometry && options.primitive >= 0) {
     const int invocation =
         options.invocation.empty() ? 0 : parseIntegers(options.invocation, "--invocation", 1, 1)[0];
-    return std::vector<std::int32_t>{options.primitive, invocation, std::max(options.instance, 0)};
+    return session::ThreadName{
+        {"primitive", options.primitive}, {"invocation", invocation}, {"repeat", instance}};
   }
   return std::nullopt;
 }
@@ -127,8 +132,8 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
   command
       ->add_option(
           "--instance", options->instance,
-          "with --stage vertex: gl_InstanceID; geometry, tess-control: which of the threads with the "
-          "same numbers ('repeat'); default 0")
+          "with --stage vertex: gl_InstanceID; geometry, tess-control, tess-eval: which of the threads "
+          "with the same numbers ('repeat'); default 0")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--primitive", options->primitive, "with --stage geometry, tess-control, tess-eval")

@@ -31,7 +31,7 @@ struct DebugOptions {
 
 // The thread that the options name by its identity, as the selected stage tells its threads apart; nothing if
 // they name none. Throws usage for options of another stage.
-std::optional<std::vector<std::int32_t>> chosenThread(session::Stage, const DebugOptions&);
+std::optional<session::ThreadName> chosenThread(session::Stage, const DebugOptions&);
 
 // The whole run of the thread on --pixel, or, of other stages, of the one chosen.
 int debugThread(session::Session&, const Common&, const DebugOptions&);

@@ -262,7 +262,7 @@ int debugOrigin(session::Session& session, const Common& common, const DebugOpti
   Json runs = Json::array();
   std::string text;
   int status = 0;
-  for (const std::vector<std::int32_t>& thread : origin.threads) {
+  for (const session::ThreadName& thread : origin.threads) {
     const ThreadRun run = session::followThread(session, thread);
     status = std::max(status, statusOf(run));
     if (common.json)
@@ -272,7 +272,8 @@ int debugOrigin(session::Session& session, const Common& common, const DebugOpti
   }
   if (common.json) {
     Json document;
-    document["fragment"] = {{"x", pixel[0]}, {"y", pixel[1]}, {"primitive", origin.primitive}};
+    document["fragment"] = {
+        {"x", pixel[0]}, {"y", pixel[1]}, {"primitive", origin.primitive}, {"check", toJson(origin.check)}};
     document["runs"] = std::move(runs);
     document["fragments"] = toJson(options.fragments);
     print(document);

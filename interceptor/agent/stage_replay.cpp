@@ -65,6 +65,7 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
   }
 
   wire::ExecutedT executed;
+  std::uint64_t records = 0;
   if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
   for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
     if (!counted(copy)) {  // which runs the shader, too
@@ -72,7 +73,7 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
     }
     if (Refusal refusal = prepare(copy); !refusal.text.empty()) return refusal;
     if (Refusal refusal = resetStorage(storage_, copy, request); !refusal.text.empty()) return refusal;
-    timed(executed, [&] { drawOnce(copy); });
+    timed(executed, [&] { records = drawOnce(copy); });
   }
   if (guard::clearErrors()) return driverError();
 
@@ -89,6 +90,10 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
                  traces, [&] { return drawBare(*bare); }, executed);
              !refusal.text.empty()) {
     return refusal;
+  } else if (records != bare->records) {
+    // Behind the last record of a draw lie those of the one before.
+    const std::uint64_t more = std::max(records, bare->records) - std::min(records, bare->records);
+    executed.differing += more * static_cast<std::uint64_t>(std::max(feedback_.outputWords(), 1));
   }
   if (guard::clearErrors()) return guard::internal("the driver refused to read the captured values back");
   return executed;
@@ -117,10 +122,10 @@ OrRefusal<StageReplay::Bare*> StageReplay::bareCopy(const replay::Stages& stages
   return &bare;
 }
 
-Refusal StageReplay::drawBare(const Bare& bare) {
+Refusal StageReplay::drawBare(Bare& bare) {
   if (Refusal refusal = replay::useCopy(*bare.copy, kNoUniforms); !refusal.text.empty()) return refusal;
   if (Refusal refusal = prepare(*bare.copy); !refusal.text.empty()) return refusal;
-  drawOnce(*bare.copy);
+  bare.records = drawOnce(*bare.copy);
   return guard::clearErrors() ? driverError() : Refusal{};
 }
 
@@ -161,10 +166,8 @@ void StageReplay::call(const replay::ProgramCopy& copy) const {
   call_.replay(call_.arguments, asPoints(copy) ? GL_POINTS : call_.mode);
 }
 
-void StageReplay::drawOnce(const replay::ProgramCopy& copy) const {
-  feedback_.begin();
-  call(copy);
-  feedback_.end();
+std::uint64_t StageReplay::drawOnce(const replay::ProgramCopy& copy) const {
+  return feedback_.record([&] { call(copy); });
 }
 
 }  // namespace shadestep::agent

@@ -44,17 +44,18 @@ class StageReplay {
   struct Bare {
     std::unique_ptr<replay::ProgramCopy> copy;
     Check check;
+    std::uint64_t records = 0;  // that its last draw made
   };
   guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy& copy, const guard::ProgramGuard&,
                                            const wire::ExecuteT&, wire::SharedMemory& bulk);
   guard::OrRefusal<Bare*> bareCopy(const replay::Stages&, const guard::ProgramGuard&);
-  guard::Refusal drawBare(const Bare&);
+  guard::Refusal drawBare(Bare&);
   bool asPoints(const replay::ProgramCopy&) const;
   capture::FeedbackLayout layoutOf(const replay::ProgramCopy&) const;
   bool counted(const replay::ProgramCopy&) const;
   guard::Refusal prepare(const replay::ProgramCopy&);
   void call(const replay::ProgramCopy&) const;
-  void drawOnce(const replay::ProgramCopy&) const;
+  std::uint64_t drawOnce(const replay::ProgramCopy&) const;
 
   const calls::DrawCall& call_;
   const DrawFacts& facts_;

@@ -25,24 +25,12 @@ Feedback::~Feedback() {
   if (buffer_ != 0) gl().DeleteBuffers(1, &buffer_);
 }
 
-// What there is no room for is counted all the same. (Mesa's software renderer counts nothing without the
-// feedback.)
 guard::Refusal Feedback::count(const FeedbackLayout& layout, const std::function<void()>& draw,
                                std::uint64_t& records) {
   records = 0;
   if (layout.words() == 0) return {};
   if (guard::Refusal refusal = reset(layout, verticesOf(layout.mode)); !refusal.text.empty()) return refusal;
-  GLuint query = 0;
-  gl().GenQueries(1, &query);
-  gl().BeginQuery(GL_PRIMITIVES_GENERATED, query);
-  begin();
-  draw();
-  end();
-  gl().EndQuery(GL_PRIMITIVES_GENERATED);
-  GLuint primitives = 0;
-  gl().GetQueryObjectuiv(query, GL_QUERY_RESULT, &primitives);
-  gl().DeleteQueries(1, &query);
-  records = primitives * verticesOf(layout.mode);
+  records = record(draw);
   return {};
 }
 
@@ -68,12 +56,22 @@ guard::Refusal Feedback::reset(const FeedbackLayout& layout, std::uint64_t recor
                       " words of transform feedback; print fewer values at once");
 }
 
-void Feedback::begin() const {
-  if (layout_.words() != 0) gl().BeginTransformFeedback(layout_.mode);
-}
-
-void Feedback::end() const {
-  if (layout_.words() != 0) gl().EndTransformFeedback();
+std::uint64_t Feedback::record(const std::function<void()>& draw) const {
+  if (layout_.words() == 0) {
+    draw();
+    return 0;
+  }
+  GLuint query = 0;
+  gl().GenQueries(1, &query);
+  gl().BeginQuery(GL_PRIMITIVES_GENERATED, query);
+  gl().BeginTransformFeedback(layout_.mode);
+  draw();
+  gl().EndTransformFeedback();
+  gl().EndQuery(GL_PRIMITIVES_GENERATED);
+  GLuint primitives = 0;
+  gl().GetQueryObjectuiv(query, GL_QUERY_RESULT, &primitives);
+  gl().DeleteQueries(1, &query);
+  return primitives * verticesOf(layout_.mode);
 }
 
 void Feedback::leaveMode(GLenum mode) const {

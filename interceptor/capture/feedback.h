@@ -37,8 +37,9 @@ class Feedback {
 
   // Makes room for so many records.
   guard::Refusal reset(const FeedbackLayout&, std::uint64_t records);
-  void begin() const;
-  void end() const;
+  // Runs `draw` with the feedback on; the result is how many records it made, which may be more than there is
+  // room for. (Mesa's software renderer counts nothing without the feedback.)
+  std::uint64_t record(const std::function<void()>& draw) const;
   // Mesa 22.3 has one primitive mode for all feedback objects, the one that began last: the program's own
   // feedback, if it is paused, would refuse its draws. To be called last, with a program of this layout
   // current.

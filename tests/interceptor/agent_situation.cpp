@@ -149,6 +149,21 @@ int feedback() {
   return right ? 0 : 1;
 }
 
+int emits() {
+  const char* vertex_text = "#version 430 compatibility\nvoid main() { gl_Position = gl_Vertex; }\n";
+  const char* geometry_text =
+      "#version 430\nlayout(triangles) in;\nlayout(triangle_strip, max_vertices = 3) out;\n"
+      "void main() { for (int i = 0; i < 3; ++i) { gl_Position = gl_in[i].gl_Position; EmitVertex(); } }\n";
+  const GLuint program = glCreateProgram();
+  glAttachShader(program, scene::compile(GL_VERTEX_SHADER, {vertex_text}));
+  glAttachShader(program, scene::compile(GL_GEOMETRY_SHADER, {geometry_text}));
+  glAttachShader(program, scene::compile(GL_FRAGMENT_SHADER, {kFragment}));
+  glLinkProgram(program);
+  glUseProgram(program);
+  draw();
+  return drawnEverywhere() ? 0 : 1;
+}
+
 int subroutines() {
   const GLuint program =
       linked(kVertex,
@@ -361,6 +376,7 @@ int main(int argc, char** argv) {
       {"separate-stages", separateStages},
       {"several-shaders", severalShaders},
       {"feedback", feedback},
+      {"emits", emits},
       {"subroutines", subroutines},
       {"storage-block", storageBlock},
       {"memory", memory},

@@ -7,11 +7,27 @@ namespace agent_test {
 namespace {
 
 TEST(Situations, goWellWithoutADebugger) {
-  for (const char* name : {"ordinary",        "deleted-program", "fixed-function",     "immediate-mode",
-                           "display-list",    "queries",         "queried-condition",  "condition-holds",
-                           "condition",       "no-rasterizer",   "pipeline",           "separate-stages",
-                           "several-shaders", "feedback",        "subroutines",        "storage-block",
-                           "memory",          "clock-in-memory", "multisampled-image", "debug-messages",
+  for (const char* name : {"ordinary",
+                           "deleted-program",
+                           "fixed-function",
+                           "immediate-mode",
+                           "display-list",
+                           "queries",
+                           "queried-condition",
+                           "condition-holds",
+                           "condition",
+                           "no-rasterizer",
+                           "pipeline",
+                           "separate-stages",
+                           "several-shaders",
+                           "feedback",
+                           "emits",
+                           "subroutines",
+                           "storage-block",
+                           "memory",
+                           "clock-in-memory",
+                           "multisampled-image",
+                           "debug-messages",
                            "forked"}) {
     Scene scene({SITUATION, name}, {});
     EXPECT_EQ(scene.status(), 0) << name;
@@ -141,6 +157,29 @@ TEST(Situations, drawsWhoseConditionHoldsAreReplayed) {
   Session session(SITUATION, "condition-holds", "");
   expectHalfEverywhere(session, "0.5");
   end(session);
+}
+
+// What a shorter draw leaves behind its last vertex are the vertices of the draw before.
+TEST(Situations, aShaderThatEmitsLessDiffers) {
+  for (const bool less : {false, true}) {
+    Session session(SITUATION, "emits", "");
+    session.resumeTo(0, 0);
+    ASSERT_NE(session.receive(), nullptr);
+    const wire::DrawT draw = session.describe();
+    wire::PrepareT prepare;
+    prepare.stage = wire::Stage::Geometry;
+    prepare.geometry = wire::Geometry::Unrasterized;
+    prepare.feedback_outputs = {"gl_Position"};
+    for (const auto& stage : draw.stages)
+      if (stage->stage == wire::Stage::Geometry)
+        for (const auto& string : stage->sources) prepare.text += string->text;
+    if (less) prepare.text.replace(prepare.text.find("EmitVertex()"), 12, "if (i < 0) EmitVertex()");
+    wire::ExecuteT execute;
+    execute.handle = session.prepare(prepare);
+    execute.compare = true;
+    EXPECT_EQ(session.execute(execute).differing > 0, less);
+    end(session);
+  }
 }
 
 TEST(Situations, displayListsAreReplayed) {
