@@ -115,20 +115,19 @@ std::string compareMeanings(Stage stage, const std::vector<Preprocessed>& object
 
 // ---- the whole
 
-Analysis analyseUnguarded(Stage stage, const std::vector<ShaderStrings>& objects,
+Analysis analyseUnguarded(Stage stage, const std::vector<ShaderObject>& objects,
                           const PreprocessorFacts& given) {
   Shader shader;
   shader.stage = stage;
   std::vector<Preprocessed> preprocessed;
-  for (const ShaderStrings& strings : objects) {
+  for (const ShaderObject& object : objects) {
     const int first_line = static_cast<int>(shader.lines.size()) + 1;
-    preprocessed.push_back(preprocess(strings, given, first_line));
-    if (!preprocessed.back().error.empty()) return {std::nullopt, preprocessed.back().error};
+    preprocessed.push_back(preprocess(object.strings, given, first_line, object.includes));
+    const Preprocessed& text = preprocessed.back();
+    if (!text.error.empty()) return {std::nullopt, text.error};
     shader.object_lines.push_back(first_line);
-    std::string text;
-    for (const std::string& string : strings) text += string;
-    const std::vector<std::string> lines = splitLines(text);
-    shader.lines.insert(shader.lines.end(), lines.begin(), lines.end());
+    shader.lines.insert(shader.lines.end(), text.lines.begin(), text.lines.end());
+    shader.included.insert(shader.included.end(), text.included.begin(), text.included.end());
   }
   const bool several = objects.size() > 1;
   LinkedObjects linked;
@@ -155,10 +154,10 @@ Analysis analyseUnguarded(Stage stage, const std::vector<ShaderStrings>& objects
 }  // namespace
 
 Analysis analyse(Stage stage, const std::vector<std::string>& strings, const PreprocessorFacts& facts) {
-  return analyseLinked(stage, {strings}, facts);
+  return analyseLinked(stage, {{strings, {}}}, facts);
 }
 
-Analysis analyseLinked(Stage stage, const std::vector<ShaderStrings>& objects,
+Analysis analyseLinked(Stage stage, const std::vector<ShaderObject>& objects,
                        const PreprocessorFacts& facts) {
   try {
     return analyseUnguarded(stage, objects, facts);

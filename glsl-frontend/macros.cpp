@@ -77,8 +77,8 @@ class Pending {
 
 class Expander {
  public:
-  Expander(const std::map<std::string, Macro>& macros, int line_offset, int file)
-      : macros_(macros), line_offset_(line_offset), file_(file) {}
+  Expander(const std::map<std::string, Macro>& macros, const MacroTable::Numbering& numbering)
+      : macros_(macros), numbering_(numbering) {}
 
   Sequence expand(const Sequence& input) const {
     Pending pending(input);
@@ -88,9 +88,9 @@ class Expander {
       if (use.token.kind != TokenKind::identifier || hides(use.hidden, use.token.text)) {
         output.push_back(std::move(use));
       } else if (use.token.text == "__LINE__") {
-        output.push_back(number(use, use.token.place.line + line_offset_));
+        output.push_back(number(use, use.token.place.line + numbering_.line_offset));
       } else if (use.token.text == "__FILE__") {
-        output.push_back(number(use, file_));
+        output.push_back(number(use, numbering_.file));
       } else {
         expandUse(std::move(use), pending, output);
       }
@@ -209,8 +209,7 @@ class Expander {
   }
 
   const std::map<std::string, Macro>& macros_;
-  int line_offset_;
-  int file_;
+  const MacroTable::Numbering& numbering_;
 };
 
 }  // namespace
@@ -239,7 +238,7 @@ std::vector<Token> MacroTable::expand(const std::vector<Token>& tokens) const {
   input.reserve(tokens.size());
   for (const Token& token : tokens) input.push_back({token, nullptr});
   std::vector<Token> output;
-  for (HidingToken& token : Expander(macros_, line_offset_, file_).expand(input)) {
+  for (HidingToken& token : Expander(macros_, numbering_).expand(input)) {
     output.push_back(std::move(token.token));
   }
   return output;

@@ -30,17 +30,23 @@ class MacroTable {
   void undefine(const std::string& name);
   bool isDefined(const std::string& name) const;
 
+  // What __LINE__ and __FILE__ say.
+  struct Numbering {
+    int line_offset = 0;
+    int file = 0;
+  };
+  const Numbering& numbering() const { return numbering_; }
+  void setNumbering(const Numbering& numbering) { numbering_ = numbering; }
   // #line LINE: the line after `physical_line` has the number LINE for __LINE__.
-  void setLine(int physical_line, int line) { line_offset_ = line - (physical_line + 1); }
-  void setFile(int file) { file_ = file; }
+  void setLine(int physical_line, int line) { numbering_.line_offset = line - (physical_line + 1); }
+  void setFile(int file) { numbering_.file = file; }
 
   // Throws PreprocessError.
   std::vector<Token> expand(const std::vector<Token>& tokens) const;
 
  private:
   std::map<std::string, Macro> macros_;
-  int line_offset_ = 0;
-  int file_ = 0;
+  Numbering numbering_;
 };
 
 }  // namespace shadestep::frontend

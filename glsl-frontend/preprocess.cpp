@@ -6,6 +6,7 @@
 
 #include "glsl-frontend/condition.h"
 #include "glsl-frontend/extension_macros.h"
+#include "glsl-frontend/include_tree.h"
 #include "glsl-frontend/lexer.h"
 #include "glsl-frontend/macros.h"
 #include "glsl-frontend/tokens.h"
@@ -13,6 +14,8 @@
 namespace shadestep::frontend {
 
 namespace {
+
+constexpr std::size_t kDeepestInclude = 100;
 
 // One #if ... #endif that is open.
 struct Conditional {
@@ -25,14 +28,25 @@ struct Conditional {
 
 class Preprocessor {
  public:
-  Preprocessor(const PreprocessorFacts& facts, int first_line, Preprocessed& result)
-      : facts_(facts), result_(result) {
-    macros_.setLine(first_line - 1, 1);
+  Preprocessor(const PreprocessorFacts& facts, int first_line, const Includes& includes, Preprocessed& result)
+      : facts_(facts), first_line_(first_line), tree_(includes), result_(result) {
     setVersion(facts.es ? 100 : 110, facts.es ? "es" : "");
     if (facts.es) result_.profile = "";
   }
 
-  void run(const std::vector<LexedLine>& lines) {
+  // One string: its lines come behind those that there are.
+  void run(const std::string& text) {
+    const int first_line = nextLine();
+    const std::vector<std::string> text_lines = splitLines(text);
+    result_.lines.insert(result_.lines.end(), text_lines.begin(), text_lines.end());
+    macros_.setNumbering({});
+    macros_.setLine(first_line - 1, 1);
+    Place unclosed;
+    const std::vector<LexedLine> lines = lex(text, &unclosed, first_line);
+    if (unclosed.line > 0) throw PreprocessError{unclosed, "this comment is not closed"};
+
+    const std::size_t outer_conditionals = outer_conditionals_;
+    outer_conditionals_ = conditionals_.size();
     for (const LexedLine& line : lines) {
       if (line.isDirective()) {
         flush();
@@ -42,12 +56,26 @@ class Preprocessor {
       }
     }
     flush();
-    if (!conditionals_.empty()) {
+    if (conditionals_.size() > outer_conditionals_) {
       throw PreprocessError{conditionals_.back().place, "this conditional has no #endif"};
     }
+    outer_conditionals_ = outer_conditionals;
+  }
+
+  // "line 7", or "line 2 of the included string /lib/noise".
+  std::string nameOf(int line) const {
+    const IncludedString* within = nullptr;
+    for (const IncludedString& string : result_.included) {
+      if (string.first_line <= line) within = &string;
+    }
+    if (within == nullptr) return "line " + std::to_string(line);
+    return "line " + std::to_string(line - within->first_line + 1) + " of the included string " +
+           within->name;
   }
 
  private:
+  int nextLine() const { return first_line_ + static_cast<int>(result_.lines.size()); }
+
   bool active() const { return conditionals_.empty() || conditionals_.back().active; }
 
   // Text between two directives is expanded as a whole: a macro's call may stretch over lines.
@@ -77,10 +105,12 @@ class Preprocessor {
       keep(line);
     } else if (name == "line") {
       lineNumber(rest);
+    } else if (name == "include") {
+      include(rest);
     } else if (name == "error") {
       fail("#error " + joined(rest));
     } else {
-      fail("#" + name + " is not known here; write the included or generated text into the shader itself");
+      fail("#" + name + " is not known here");
     }
   }
 
@@ -101,7 +131,7 @@ class Preprocessor {
       branch(current, current.outer_active && !current.taken);
       current.else_seen = true;
     } else if (name == "endif") {
-      if (conditionals_.empty()) fail("#endif without #if");
+      if (conditionals_.size() <= outer_conditionals_) fail("#endif without #if");
       conditionals_.pop_back();
     } else {
       return false;
@@ -112,7 +142,7 @@ class Preprocessor {
   void open(bool taken) { conditionals_.push_back({place_, active(), taken, taken, false}); }
 
   Conditional& innermost(const std::string& name) {
-    if (conditionals_.empty()) fail("#" + name + " without #if");
+    if (conditionals_.size() <= outer_conditionals_) fail("#" + name + " without #if");
     if (conditionals_.back().else_seen) fail("#" + name + " after #else");
     return conditionals_.back();
   }
@@ -194,6 +224,54 @@ class Preprocessor {
     if (expanded.size() > 1 && parseInteger(expanded[1].text, file)) macros_.setFile(file);
   }
 
+  void include(const std::vector<LexedToken>& rest) {
+    bool quoted = false;
+    const std::string path = includedPath(rest, quoted);
+    const IncludeTree::Found found =
+        tree_.find(path, quoted, includers_.empty() ? nullptr : &includers_.back());
+    if (found.text == nullptr) {
+      fail("#include: there was no named string '" + path + "' when the shader was compiled");
+    }
+    if (!found.other.empty()) {
+      fail("#include: '" + path + "' may mean " + found.location + " or " + found.other +
+           ", depending on the driver; write the path from the root");
+    }
+    if (includers_.size() >= kDeepestInclude) fail("#include: strings include each other without end");
+
+    const Place place = place_;
+    const MacroTable::Numbering numbering = macros_.numbering();
+    const std::size_t lines_before = result_.lines.size();
+    const std::size_t tokens_before = result_.tokens.size();
+    const bool again = std::any_of(result_.included.begin(), result_.included.end(),
+                                   [&](const IncludedString& shown) { return shown.name == found.location; });
+    result_.included.push_back({nextLine(), found.location});
+    const std::size_t included_before = result_.included.size();
+    includers_.push_back(found);
+    run(*found.text);
+    includers_.pop_back();
+    macros_.setNumbering(numbering);
+    place_ = place;
+    // With a guard against a second inclusion, the second brings nothing.
+    if (again && result_.tokens.size() == tokens_before && result_.included.size() == included_before) {
+      result_.lines.resize(lines_before);
+      result_.included.pop_back();
+    }
+  }
+
+  // Paths are no tokens: taken from the text as it stands.
+  std::string includedPath(const std::vector<LexedToken>& rest, bool& quoted) {
+    const std::string form = "#include needs the form \"PATH\" or <PATH>";
+    if (rest.empty()) fail(form);
+    const Place place = rest[0].token.place;
+    const std::string& line = result_.lines.at(static_cast<std::size_t>(place.line - first_line_));
+    const std::size_t open = static_cast<std::size_t>(place.column) - 1;
+    quoted = line.at(open) == '"';
+    if (!quoted && line.at(open) != '<') fail(form);
+    const std::size_t close = line.find(quoted ? '"' : '>', open + 1);
+    if (close == std::string::npos) fail(form);
+    return line.substr(open + 1, close - open - 1);
+  }
+
   void keep(const std::vector<LexedToken>& line) {
     Token token;
     token.kind = TokenKind::directive;
@@ -227,9 +305,13 @@ class Preprocessor {
   [[noreturn]] void fail(const std::string& message) const { throw PreprocessError{place_, message}; }
 
   const PreprocessorFacts& facts_;
+  const int first_line_;
+  const IncludeTree tree_;
+  std::vector<IncludeTree::Found> includers_;  // of the string that is read, outermost first
   Preprocessed& result_;
   MacroTable macros_;
   std::vector<Conditional> conditionals_;
+  std::size_t outer_conditionals_ = 0;  // of the strings that include the current one
   std::vector<Token> text_;
   Place place_;  // of the current directive
 };
@@ -237,17 +319,15 @@ class Preprocessor {
 }  // namespace
 
 Preprocessed preprocess(const std::vector<std::string>& strings, const PreprocessorFacts& facts,
-                        int first_line) {
+                        int first_line, const Includes& includes) {
   std::string text;
   for (const std::string& string : strings) text += string;
   Preprocessed result;
+  Preprocessor preprocessor(facts, first_line, includes, result);
   try {
-    Place unclosed;
-    const std::vector<LexedLine> lines = lex(text, &unclosed, first_line);
-    if (unclosed.line > 0) throw PreprocessError{unclosed, "this comment is not closed"};
-    Preprocessor(facts, first_line, result).run(lines);
+    preprocessor.run(text);
   } catch (const PreprocessError& error) {
-    result.error = "line " + std::to_string(error.place.line) + ": " + error.message;
+    result.error = preprocessor.nameOf(error.place.line) + ": " + error.message;
   }
   return result;
 }

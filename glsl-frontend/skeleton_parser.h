@@ -222,6 +222,7 @@ class Parser {
   TokenIndex tokenAfterSemicolon() const { return is(";") ? current() + 1 : current(); }
 
   StatementId body(StatementId parent, const std::vector<VariableId>& head_names = {});
+  void parenthesized(StatementId id);
   StatementId ifStatement(StatementId parent);
 
   void addChild(StatementId parent, StatementId child) { statementRef(parent).children.push_back(child); }

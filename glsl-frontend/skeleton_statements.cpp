@@ -122,13 +122,18 @@ StatementId Parser::body(StatementId parent, const std::vector<VariableId>& head
   return id;
 }
 
-StatementId Parser::ifStatement(StatementId parent) {
-  const StatementId id = open(StatementKind::if_, parent);
-  expect("if");
+// ( what the statement decides by )
+void Parser::parenthesized(StatementId id) {
   expect("(");
   const TokenRange condition = expression({")"});
   statementRef(id).expression = condition;
   expect(")");
+}
+
+StatementId Parser::ifStatement(StatementId parent) {
+  const StatementId id = open(StatementKind::if_, parent);
+  expect("if");
+  parenthesized(id);
   addChild(id, body(id));
   if (accept("else")) addChild(id, body(id));
   return close(id);
@@ -189,11 +194,8 @@ StatementId Parser::doStatement(StatementId parent) {
   expect("do");
   addChild(id, body(id));
   expect("while");
-  expect("(");
   statement_ = id;
-  const TokenRange condition = expression({")"});
-  statementRef(id).expression = condition;
-  expect(")");
+  parenthesized(id);
   expect(";");
   return close(id);
 }
@@ -201,10 +203,7 @@ StatementId Parser::doStatement(StatementId parent) {
 StatementId Parser::switchStatement(StatementId parent) {
   const StatementId id = open(StatementKind::switch_, parent);
   expect("switch");
-  expect("(");
-  const TokenRange condition = expression({")"});
-  statementRef(id).expression = condition;
-  expect(")");
+  parenthesized(id);
   expect("{");
   Scope scope(*this);
   statementList(id);

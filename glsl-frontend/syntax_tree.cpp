@@ -50,6 +50,7 @@ const TBuiltInResource& generousLimits() {
     limits.maxClipPlanes = 8;
     limits.maxTextureUnits = 8;
     limits.maxTextureCoords = 8;
+    limits.maxTextureImageUnits = 8;  // of gl_TextureEnvColor, which drivers give gl_MaxTextureUnits elements
     return limits;
   }();
   return kLimits;

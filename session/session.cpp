@@ -46,8 +46,11 @@ DrawFacts unpack(const wire::DrawT& draw) {
     StageFacts& one = known != facts.stages.end() ? *known : facts.stages.emplace_back();
     one.stage = stage;
     if (one.reason.empty()) one.reason = object->reason;
-    one.objects.emplace_back();
-    for (const auto& source : object->sources) one.objects.back().push_back(source->text);
+    frontend::ShaderObject& text = one.objects.emplace_back();
+    for (const auto& source : object->sources) text.strings.push_back(source->text);
+    for (const auto& string : object->named_strings)
+      text.includes.named.emplace_back(string->name, string->text);
+    text.includes.search_paths = object->search_paths;
   }
   facts.framebuffer = draw.framebuffer;
   facts.target_reason = draw.target_reason;

@@ -13,8 +13,9 @@ std::string fragmentText(const DrawFacts& facts) {
   std::string text;
   for (const StageFacts& stage : facts.stages) {
     if (stage.stage != Stage::fragment) continue;
-    for (const frontend::ShaderStrings& object : stage.objects) {
-      for (const std::string& string : object) text += string;
+    for (const frontend::ShaderObject& object : stage.objects) {
+      for (const std::string& string : object.strings) text += string;
+      for (const auto& [name, string] : object.includes.named) text += name + string;
     }
   }
   return text;

@@ -11,26 +11,30 @@ struct Options {
   std::string frames;
 };
 
-std::string joined(const frontend::ShaderStrings& strings) {
+std::string joined(const frontend::ShaderObject& object) {
   std::string text;
-  for (const std::string& string : strings) text += string;
+  for (const std::string& string : object.strings) text += string;
   return text;
 }
 
-// FNV-1a over the strings: tells sources apart, no more.
-std::string hashOf(const std::vector<frontend::ShaderStrings>& objects) {
+// FNV-1a over the strings, and those that they may include: tells sources apart, no more.
+std::string hashOf(const std::vector<frontend::ShaderObject>& objects) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const frontend::ShaderStrings& object : objects) {
-    for (const char c : joined(object)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  const auto add = [&hash](const std::string& text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  };
+  for (const frontend::ShaderObject& object : objects) {
+    add(joined(object));
+    for (const auto& [name, string] : object.includes.named) add(name + string);
   }
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;
 }
 
-std::size_t linesOf(const std::vector<frontend::ShaderStrings>& objects) {
+std::size_t linesOf(const std::vector<frontend::ShaderObject>& objects) {
   std::size_t lines = 0;
-  for (const frontend::ShaderStrings& object : objects) {
+  for (const frontend::ShaderObject& object : objects) {
     const std::string text = joined(object);
     for (const char c : text) lines += c == '\n' ? 1 : 0;
     lines += text.empty() || text.back() == '\n' ? 0 : 1;

@@ -67,16 +67,23 @@ int run(const Common& common) {
     document["version"] = shader.version;
     document["lines"] = shader.lines;
     document["objects"] = shader.object_lines;
+    document["included"] = Json::array();
+    for (const frontend::IncludedString& string : shader.included)
+      document["included"].push_back({{"line", string.first_line}, {"name", string.name}});
     document["sites"] = std::move(sites);
     print(document);
     return 0;
   }
   std::size_t object = 0;
+  auto included = shader.included.begin();
   for (std::size_t i = 0; i < shader.lines.size(); ++i) {
     const bool object_starts =
         object < shader.object_lines.size() && static_cast<std::size_t>(shader.object_lines[object]) == i + 1;
     if (object_starts && ++object > 0 && shader.object_lines.size() > 1) {
       std::printf("      -- shader object %zu of %zu\n", object, shader.object_lines.size());
+    }
+    if (included != shader.included.end() && static_cast<std::size_t>(included->first_line) == i + 1) {
+      std::printf("      -- included string %s\n", included++->name.c_str());
     }
     std::printf("%5zu %c %s\n", i + 1, has_site[i + 1] ? '*' : ' ', shader.lines[i].c_str());
   }

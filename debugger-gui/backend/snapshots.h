@@ -28,10 +28,11 @@ struct DrawEntry {
 
 struct StageSource {
   session::Stage stage = session::Stage::fragment;
-  std::string reason;              // why it cannot be stepped through; empty if it can
-  int version = 0;                 // 0: could not be analysed
-  std::vector<std::string> lines;  // the user's text
-  std::vector<int> stops;          // lines with a statement to stop at, ascending
+  std::string reason;                              // why it cannot be stepped through; empty if it can
+  int version = 0;                                 // 0: could not be analysed
+  std::vector<std::string> lines;                  // the user's text
+  std::vector<frontend::IncludedString> included;  // among them, by #include
+  std::vector<int> stops;                          // lines with a statement to stop at, ascending
 };
 
 // The program stands at a draw.

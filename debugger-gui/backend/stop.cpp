@@ -21,7 +21,7 @@ std::string whyNot(session::Session& session) {
 std::vector<std::string> textOf(const session::StageFacts& facts) {
   std::string whole;
   for (const auto& object : facts.objects)
-    for (const std::string& string : object) whole += string;
+    for (const std::string& string : object.strings) whole += string;
   std::vector<std::string> lines(1);
   for (const char c : whole) {
     if (c == '\n') {
@@ -41,6 +41,7 @@ StageSource sourceOf(session::Session& session, const session::StageFacts& facts
     const frontend::Shader& shader = session.shader(facts.stage);
     source.version = shader.version;
     source.lines = shader.lines;
+    source.included = shader.included;
     for (int line = 1; line <= static_cast<int>(shader.lines.size()); ++line)
       if (!frontend::statementsAt(shader, line).empty()) source.stops.push_back(line);
   } catch (const Error& error) {

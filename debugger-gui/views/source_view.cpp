@@ -91,6 +91,11 @@ void SourceView::setSource(const StageSource& source) {
   QStringList lines;
   for (const std::string& line : source.lines) lines.push_back(QString::fromStdString(line));
   setText(lines.join('\n'));
+  clearAnnotations();
+  for (const frontend::IncludedString& string : source.included)
+    annotate(string.first_line - 2, tr("included string %1").arg(QString::fromStdString(string.name)),
+             kCostStyle);
+  setAnnotationDisplay(AnnotationStandard);
   setMarginWidth(kNumbers, QString("0%1").arg(lines.size()));
   clearMarginText();
   setMarginWidth(kCosts, 0);

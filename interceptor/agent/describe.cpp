@@ -10,6 +10,7 @@
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/guard/guards.h"
+#include "interceptor/guard/query.h"
 #include "interceptor/replay/stages.h"
 #include "interceptor/replay/uniforms.h"
 
@@ -17,12 +18,7 @@ namespace shadestep::agent {
 namespace {
 
 using dispatch::gl;
-
-GLint integer(GLenum name) {
-  GLint value = 0;
-  gl().GetIntegerv(name, &value);
-  return value;
-}
+using guard::integer;
 
 std::string text(GLenum name) {
   const GLubyte* value = gl().GetString(name);
@@ -124,6 +120,14 @@ std::vector<std::unique_ptr<wire::ShaderStageT>> stages(const std::vector<calls:
     for (const std::string& string : shader.source->strings) {
       entry->sources.push_back(std::make_unique<wire::TextT>());
       entry->sources.back()->text = string;
+    }
+    if (shader.source->named_strings != nullptr) {
+      for (const calls::NamedString& string : *shader.source->named_strings) {
+        entry->named_strings.push_back(std::make_unique<wire::NamedStringT>());
+        entry->named_strings.back()->name = string.name;
+        entry->named_strings.back()->text = *string.text;
+      }
+      entry->search_paths = shader.source->search_paths;
     }
     result.push_back(std::move(entry));
   }

@@ -64,7 +64,24 @@ std::vector<std::string> strings(GLsizei count, const GLchar* const* text, const
 }
 
 std::shared_ptr<const CompiledSource> withoutText(std::string reason) {
-  return std::make_shared<CompiledSource>(CompiledSource{{}, std::move(reason)});
+  return std::make_shared<CompiledSource>(CompiledSource{{}, std::move(reason), nullptr, {}});
+}
+
+std::shared_ptr<const CompiledSource> compiled(std::vector<std::string> text,
+                                               std::vector<std::string> search_paths) {
+  CompiledSource source{std::move(text), "", nullptr, std::move(search_paths)};
+  for (const std::string& string : source.strings) {
+    if (string.find("include") != std::string::npos) source.named_strings = namedStrings();
+  }
+  return std::make_shared<CompiledSource>(std::move(source));
+}
+
+void noteCompiled(GLuint shader, std::vector<std::string> search_paths) {
+  const std::lock_guard lock(mutex);
+  ShareGroup* group = currentGroup();
+  if (group == nullptr) return;
+  ShaderText& text = group->shaders[shader];
+  text.compiled = compiled(text.given, std::move(search_paths));
 }
 
 void markWithoutText(GLsizei count, const GLuint* shaders, const char* reason) {
@@ -127,16 +144,13 @@ void after_glShaderSource(GLuint shader, GLsizei count, const GLchar* const* str
 }
 
 void after_glCompileShader(GLuint shader) {
-  const std::lock_guard lock(mutex);
-  ShareGroup* group = currentGroup();
-  if (group == nullptr) return;
-  ShaderText& text = group->shaders[shader];
-  text.compiled = std::make_shared<CompiledSource>(CompiledSource{text.given, ""});
+  noteCompiled(shader, {});
 }
 
-void after_glCompileShaderIncludeARB(GLuint shader, GLsizei, const GLchar* const*, const GLint*) {
-  markWithoutText(1, &shader,
-                  "the shader is compiled with glCompileShaderIncludeARB, which cannot be debugged yet");
+void after_glCompileShaderIncludeARB(GLuint shader, GLsizei count, const GLchar* const* paths,
+                                     const GLint* lengths) {
+  if (count < 0 || (count > 0 && paths == nullptr)) return;
+  noteCompiled(shader, strings(count, paths, lengths));
 }
 
 void after_glShaderBinary(GLsizei count, const GLuint* shaders, GLenum, const void*, GLsizei) {
@@ -202,8 +216,7 @@ void after_glCreateShaderProgramv(GLuint result, GLenum type, GLsizei count, con
   if (result == 0 || count < 0 || text == nullptr) return;
   const std::lock_guard lock(mutex);
   LinkedProgram linked;
-  linked.shaders.push_back(
-      {0, type, std::make_shared<CompiledSource>(CompiledSource{strings(count, text, nullptr), ""})});
+  linked.shaders.push_back({0, type, compiled(strings(count, text, nullptr), {})});
   setLinked(result, std::move(linked));
 }
 

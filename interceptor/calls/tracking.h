@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "interceptor/calls/named_strings.h"
 #include "interceptor/registry/gl_enums.h"
 #include "interceptor/registry/gl_types.h"
 
@@ -17,6 +18,9 @@ namespace shadestep::calls {
 struct CompiledSource {
   std::vector<std::string> strings;
   std::string reason;  // why there is no text ("" if there is): SPIR-V, a binary
+  // Of a text that may include strings: those that there were, and glCompileShaderIncludeARB's paths.
+  std::shared_ptr<const NamedStrings> named_strings;
+  std::vector<std::string> search_paths;
 };
 
 struct LinkedShader {

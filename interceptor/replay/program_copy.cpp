@@ -46,23 +46,41 @@ std::string programLog(GLuint program) {
   return log;
 }
 
-// 0 and the log if it does not compile.
-GLuint compile(GLenum type, const std::vector<std::string>& strings, std::string& log) {
-  const GLuint shader = gl().CreateShader(type);
+// As OpenGL takes several strings.
+struct StringList {
+  explicit StringList(const std::vector<std::string>& strings) {
+    for (const std::string& text : strings) {
+      texts.push_back(text.data());
+      lengths.push_back(static_cast<GLint>(text.size()));
+    }
+  }
+  GLsizei count() const { return static_cast<GLsizei>(texts.size()); }
   std::vector<const GLchar*> texts;
   std::vector<GLint> lengths;
-  for (const std::string& text : strings) {
-    texts.push_back(text.data());
-    lengths.push_back(static_cast<GLint>(text.size()));
+};
+
+// 0 and the log if it does not compile.
+GLuint compile(GLenum type, const calls::CompiledSource& source, std::string& log) {
+  const GLuint shader = gl().CreateShader(type);
+  const StringList strings(source.strings);
+  gl().ShaderSource(shader, strings.count(), strings.texts.data(), strings.lengths.data());
+  if (source.named_strings != nullptr) {
+    const calls::NamedStringsScope scope(source.named_strings);
+    const StringList paths(source.search_paths);
+    gl().CompileShaderIncludeARB(shader, paths.count(), paths.texts.data(), paths.lengths.data());
+  } else {
+    gl().CompileShader(shader);
   }
-  gl().ShaderSource(shader, static_cast<GLsizei>(texts.size()), texts.data(), lengths.data());
-  gl().CompileShader(shader);
   GLint compiled = GL_FALSE;
   gl().GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
   if (compiled) return shader;
   log = shaderLog(shader);
   gl().DeleteShader(shader);
   return 0;
+}
+
+GLuint compile(GLenum type, const std::string& text, std::string& log) {
+  return compile(type, calls::CompiledSource{{text}, "", nullptr, {}}, log);
 }
 
 Refusal doesNotCompile(GLenum type, const std::string& log) {
@@ -178,7 +196,7 @@ Refusal comesFromOneProgram(const Original& original, wire::Stage last) {
 // OpenGL ES links no program without a fragment shader.
 Refusal attachEmptyFragmentStage(GLuint copy) {
   std::string log;
-  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, {"#version 100\nvoid main() {}\n"}, log)};
+  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, "#version 100\nvoid main() {}\n", log)};
   if (fragment.name == 0) return doesNotCompile(GL_FRAGMENT_SHADER, log);
   gl().AttachShader(copy, fragment.name);
   return {};
@@ -198,7 +216,7 @@ Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& ori
   }
   std::string log;
   if (!request.text.empty()) {
-    const OwnShader own{compile(replaced, {request.text}, log)};
+    const OwnShader own{compile(replaced, request.text, log)};
     if (own.name == 0) return doesNotCompile(replaced, log);
     gl().AttachShader(copy, own.name);
   }
@@ -220,9 +238,9 @@ Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& ori
 
 Refusal attachCoveringStages(const wire::PrepareT& request, GLuint copy) {
   std::string log;
-  const OwnShader vertex{compile(GL_VERTEX_SHADER, {request.vertex_text}, log)};
+  const OwnShader vertex{compile(GL_VERTEX_SHADER, request.vertex_text, log)};
   if (vertex.name == 0) return doesNotCompile(GL_VERTEX_SHADER, log);
-  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, {request.text}, log)};
+  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, request.text, log)};
   if (fragment.name == 0) return doesNotCompile(GL_FRAGMENT_SHADER, log);
   gl().AttachShader(copy, vertex.name);
   gl().AttachShader(copy, fragment.name);
@@ -276,7 +294,7 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
   if (unrasterized) {
     setFeedbackVaryings(facts, copy.program, request);
   } else {
-    if (!copy.covering) copyFeedbackVaryings(original.program, copy.program);
+    if (!copy.covering) copyFeedbackVaryings(facts, original.program, copy.program);
     if (Refusal failed = bindOutputs(facts, original, request, copy); !failed.text.empty()) return failed;
   }
   if (Refusal failed = link(copy); !failed.text.empty()) return failed;
@@ -309,7 +327,7 @@ GLuint ShaderCache::shader(GLenum type, const std::shared_ptr<const calls::Compi
                            std::string& log) {
   const auto found = shaders_.find(source);
   if (found != shaders_.end()) return found->second;
-  const GLuint shader = compile(type, source->strings, log);
+  const GLuint shader = compile(type, *source, log);
   if (shader != 0) shaders_[source] = shader;
   return shader;
 }

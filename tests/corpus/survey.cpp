@@ -109,9 +109,9 @@ class Driver {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-std::vector<frontend::ShaderStrings> asStrings(const std::vector<std::string>& objects) {
-  std::vector<frontend::ShaderStrings> result;
-  for (const std::string& object : objects) result.push_back({object});
+std::vector<frontend::ShaderObject> asObjects(const std::vector<std::string>& objects) {
+  std::vector<frontend::ShaderObject> result;
+  for (const std::string& object : objects) result.push_back({{object}, {}});
   return result;
 }
 
@@ -207,7 +207,7 @@ int main(int count, char** arguments) {
     Row& row = rows[directory(path)];
     ++row.compiled;
     const frontend::Analysis analysis = frontend::analyseLinked(
-        frontend::Stage::fragment, asStrings(test.objects), test.es ? embedded_facts : desktop_facts);
+        frontend::Stage::fragment, asObjects(test.objects), test.es ? embedded_facts : desktop_facts);
     if (!analysis.shader) {
       reasons << path.string() << "\t" << analysis.error << "\n" << std::flush;
       continue;

@@ -104,6 +104,37 @@ TEST(Programs, AStageOfSeveralShaderObjectsIsOneText) {
   }
 }
 
+TEST(Programs, IncludedStringsAreTextsOfTheirOwn) {
+  const Scratch scratch;
+  const std::vector<std::string> command = {program("included-strings")};
+  const Finished listing = scratch.shadestep({"source"}, command);
+  EXPECT_NE(listing.out.find("      -- included string /lib/tone.glsl\n   13   #include \"height.glsl\"\n"
+                             "   14   vec3 tone(vec2 p)\n   15   {\n   16 *     float h = height(p);"),
+            std::string::npos)
+      << listing.out;
+  EXPECT_EQ(scratch.shadestep({"source", "--json"}, command).json()["included"],
+            Json({{{"line", 13}, {"name", "/lib/tone.glsl"}}, {{"line", 19}, {"name", "/lib/height.glsl"}}}));
+
+  const Json run = scratch.shadestep({"debug", "--pixel", "40,8", "--json"}, command).json();
+  EXPECT_EQ(run["check"]["outputs"], "identical");
+  EXPECT_EQ(lastValue(run, "c"), Json({4 * 2.0 * 40.5 + 6, -(4 * 2.0 * 40.5 + 6), 6.5}));
+
+  // The fourth time around the loop of a string that another string includes.
+  const Finished all = scratch.shadestep({"debug", "--at", "25:9", "--call", "9,16", "--iteration", "3",
+                                          "--after", "--print", "sum,p", "--csv", "sum.csv"},
+                                         command);
+  EXPECT_EQ(all.status, 0) << all.err;
+  const auto rows = readCsv(scratch.file("sum.csv"));
+  ASSERT_EQ(rows.size(), 64u * 64u);
+  for (const auto& row : rows) {
+    const double x = std::stoi(row[0]) + 0.5;
+    ASSERT_EQ(std::stod(row[2]), 8 * x + 6) << row[0] << "," << row[1];
+  }
+
+  const Finished checked = scratch.shadestep({"verify"}, command);
+  EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
+}
+
 TEST(Programs, OpenGlEsIsFollowedToo) {
   const Scratch scratch;
   const Json run = scratch.shadestep({"debug", "--pixel", "5,7", "--json"}, {program("es-target")}).json();

@@ -136,6 +136,14 @@ TEST(ArraySizes, ThatGlslangDoesNotFoldAreUnknown) {
       "float[3]");
 }
 
+// Drivers have as many elements as they have texture units of the fixed function.
+TEST(ArraySizes, OfTheFixedFunctionsStateAreThoseOfDrivers) {
+  const Shader shader = analysed(
+      "void main() { gl_FragColor = gl_TextureEnvColor[0] + gl_LightSource[7].ambient + gl_TexCoord[1]; }\n");
+  EXPECT_EQ(glslName(findVariable(shader, "gl_TextureEnvColor")->type), "vec4[8]");
+  EXPECT_EQ(findVariable(shader, "gl_LightSource")->type.array.front(), 8);
+}
+
 TEST(Versions, AllAreTaken) {
   for (const char* version : {"", "#version 110\n", "#version 120\n", "#version 130\n", "#version 140\n",
                               "#version 150 compatibility\n", "#version 330 compatibility\n",

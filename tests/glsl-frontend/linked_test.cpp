@@ -11,9 +11,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 Analysis linked(const std::vector<std::string>& objects) {
-  std::vector<ShaderStrings> strings;
-  for (const std::string& object : objects) strings.push_back({object});
-  return analyseLinked(Stage::fragment, strings, {});
+  std::vector<ShaderObject> texts;
+  for (const std::string& object : objects) texts.push_back({{object}, {}});
+  return analyseLinked(Stage::fragment, texts, {});
 }
 
 Shader taken(const std::vector<std::string>& objects) {

@@ -260,7 +260,7 @@ TEST(Directives, ForTheDriverStay) {
 
 TEST(Directives, ErrorsAreReportedWithTheirLine) {
   EXPECT_EQ(processed("\n#error too bad"), "error: line 2: #error too bad");
-  EXPECT_THAT(processed("#include \"a\""), HasSubstr("error: line 1: #include is not known here"));
+  EXPECT_THAT(processed("#import \"a\""), HasSubstr("error: line 1: #import is not known here"));
 }
 
 TEST(Directives, VersionsDefineTheirMacros) {
