@@ -100,18 +100,23 @@ Recording refused(const std::string& reason) {
 
 Value decode(const AttachmentLayout& layout, const Field& field, const std::uint32_t* words) {
   Value value{field.type, std::vector<std::uint32_t>(static_cast<std::size_t>(wordCount(field.type)))};
-  decodeInto(layout, field, frontend::components(field.type), words, value.words.data());
+  FieldDecoder(layout, field).decode(words, value.words.data());
   return value;
 }
 
-void decodeInto(const AttachmentLayout& layout, const Field& field, const std::vector<Component>& components,
-                const std::uint32_t* words, std::uint32_t* out) {
-  const std::uint32_t* channel = words + field.first_word;
-  if (!isFloat(layout.carrier)) {
-    std::copy_n(channel, wordCount(field.type), out);
+FieldDecoder::FieldDecoder(const AttachmentLayout& layout, const Field& field)
+    : first_(static_cast<std::size_t>(field.first_word)),
+      words_(static_cast<std::size_t>(frontend::wordCount(field.type))),
+      floats_(isFloat(layout.carrier)),
+      components_(frontend::components(field.type)) {}
+
+void FieldDecoder::decode(const std::uint32_t* thread, std::uint32_t* out) const {
+  const std::uint32_t* channel = thread + first_;
+  if (!floats_) {
+    for (std::size_t i = 0; i < words_; ++i) out[i] = channel[i];
     return;
   }
-  for (const Component& component : components) {
+  for (const Component& component : components_) {
     if (component.basic == Basic::float_) {
       *out++ = *channel++;
       continue;

@@ -32,13 +32,15 @@ void addOnce(std::vector<std::string>& texts, std::string_view text) {
 }
 
 // A function that is declared, called and nowhere defined: the driver has linked the program, hence found
-// that no call of it runs. Instrumented, it may find that no more.
+// that no call of it runs. Instrumented, it may find that no more. (The declaration of a subroutine type only
+// looks like that of a function.)
 std::string definitionsOfUndefined(const frontend::Shader& shader, const std::string& nothing) {
   std::string text;
   for (const frontend::Function& function : shader.functions) {
     if (function.body != frontend::kNone || function.prototypes.empty() || !function.candidates.empty())
       continue;
     const TokenRange prototype = function.prototypes.front();
+    if (shader.tokens[static_cast<std::size_t>(prototype.first)].text == "subroutine") continue;
     const std::vector<Token> header(shader.tokens.begin() + prototype.first,
                                     shader.tokens.begin() + prototype.last);
     text += frontend::emit(header) + " {";

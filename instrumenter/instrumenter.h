@@ -284,10 +284,19 @@ struct Value {
 // `words`: the thread's words (layout.words of them), as read from the attachments (float attachments: the
 // floats' bits).
 Value decode(const AttachmentLayout&, const Field&, const std::uint32_t* words);
-// The same without making anything: writes frontend::wordCount(field.type) words to `out`. `components` are
-// those of the field's type, asked for once.
-void decodeInto(const AttachmentLayout&, const Field&, const std::vector<frontend::Component>& components,
-                const std::uint32_t* words, std::uint32_t* out);
+// The same for many threads: what is to be known of the field is asked for once.
+class FieldDecoder {
+ public:
+  FieldDecoder(const AttachmentLayout&, const Field&);
+  std::size_t words() const { return words_; }  // of the value: frontend::wordCount
+  // `thread`: its words. Writes words() words to `out`.
+  void decode(const std::uint32_t* thread, std::uint32_t* out) const;
+
+ private:
+  std::size_t first_, words_;
+  bool floats_;
+  std::vector<frontend::Component> components_;
+};
 // The mark word of a thread under any carrier.
 std::uint32_t decodeMark(const AttachmentLayout&, const std::uint32_t* words);
 std::uint32_t encodeMark(const AttachmentLayout&, std::uint32_t mark);

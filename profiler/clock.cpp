@@ -28,15 +28,15 @@ struct Readings {
 // NaN where there is no thread, or the clock went backwards.
 std::vector<double> ticksOf(const session::Captured& captured, const CostMap& map, Readings& readings) {
   const std::vector<instrumenter::Field>& fields = captured.layout.fields;
-  const std::vector<frontend::Component> components = frontend::components(fields.at(0).type);
+  std::vector<instrumenter::FieldDecoder> decoders;
+  for (std::size_t f = 0; f < 3; ++f) decoders.emplace_back(captured.layout, fields.at(f));
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
   std::vector<double> ticks(map.cost.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < ticks.size(); ++i) {
     if (map.state[i] != PixelState::measured) continue;
-    const std::uint32_t* words =
-        captured.threads.data.data() + i * static_cast<std::size_t>(captured.threads.words);
+    captured.threads.read(i, words.data());
     std::uint32_t value[3];
-    for (std::size_t f = 0; f < 3; ++f)
-      instrumenter::decodeInto(captured.layout, fields.at(f), components, words, &value[f]);
+    for (std::size_t f = 0; f < 3; ++f) decoders[f].decode(words.data(), &value[f]);
     const ClockTicks t = clockTicks(value[0], value[1], value[2]);
     if (t.kind == ClockTicks::Kind::backwards)
       ++readings.backwards;

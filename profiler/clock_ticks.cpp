@@ -47,12 +47,12 @@ double ticksFor(session::Session& session, const session::Prepared& prepared,
   session::ExecuteOptions execute;
   execute.compare = false;
   execute.uniforms = {{"sd_work", kGlInt, {static_cast<std::uint32_t>(work)}}};
-  const session::ThreadWords threads =
-      session::joinAttachments(session.execute(prepared, execute), layout.words);
+  const session::ThreadWords threads = session::threadWords(session.execute(prepared, execute), layout.words);
   std::vector<double> ticks;
-  for (std::size_t i = 0; i + 3 < threads.data.size(); i += 4)
-    if (threads.data[i] == 1)
-      ticks.push_back(static_cast<double>(clockTicks(threads.data[i + 1], threads.data[i + 2], 0).ticks));
+  for (std::size_t i = 0; i < threads.count(); ++i) {
+    const std::uint32_t* words = threads.head(i);
+    if (words[0] == 1) ticks.push_back(static_cast<double>(clockTicks(words[1], words[2], 0).ticks));
+  }
   return median(std::move(ticks));
 }
 

@@ -23,11 +23,15 @@ Profile profileCount(session::Session& session, const ProfileOptions& options) {
   }
 
   const instrumenter::Field& steps = captured.layout.fields.at(0);
-  const auto words = static_cast<std::size_t>(captured.threads.words);
-  for (std::size_t i = 0; i < profile.map.cost.size(); ++i)
-    if (profile.map.state[i] == PixelState::measured)
-      profile.map.cost[i] =
-          instrumenter::decode(captured.layout, steps, captured.threads.data.data() + i * words).words.at(0);
+  const instrumenter::FieldDecoder decoder(captured.layout, steps);
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
+  for (std::size_t i = 0; i < profile.map.cost.size(); ++i) {
+    if (profile.map.state[i] != PixelState::measured) continue;
+    captured.threads.read(i, words.data());
+    std::uint32_t count = 0;
+    decoder.decode(words.data(), &count);
+    profile.map.cost[i] = count;
+  }
   if (options.progress) options.progress(options.lines ? 0.3 : 1);
 
   if (options.lines) {

@@ -52,13 +52,14 @@ class Counter {
  private:
   std::vector<std::uint32_t> planeOf(const session::Captured& captured,
                                      const instrumenter::Field& field) const {
-    const std::vector<frontend::Component> components = frontend::components(field.type);
+    const instrumenter::FieldDecoder decoder(captured.layout, field);
     std::vector<std::uint32_t> plane(covered_.state.size());
-    const std::size_t words = static_cast<std::size_t>(captured.threads.words);
-    for (std::size_t i = 0; i < plane.size(); ++i)
-      if (covered_.state[i] != PixelState::none)
-        instrumenter::decodeInto(captured.layout, field, components, captured.threads.data.data() + i * words,
-                                 &plane[i]);
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      if (covered_.state[i] == PixelState::none) continue;
+      captured.threads.read(i, words.data());
+      decoder.decode(words.data(), &plane[i]);
+    }
     return plane;
   }
 

@@ -157,12 +157,12 @@ void Isolation::keep(const session::Captured& captured,
             components.size() == static_cast<std::size_t>(frontend::wordCount(field.type)))
           is_float_[first + c] = 1;
       const bool truth = shader_.floats && field.type.basic == frontend::Basic::bool_;
-      std::vector<std::uint32_t> value(static_cast<std::size_t>(frontend::wordCount(field.type)));
+      const instrumenter::FieldDecoder decoder(captured.layout, field);
+      std::vector<std::uint32_t> thread(static_cast<std::size_t>(captured.threads.words()));
+      std::vector<std::uint32_t> value(decoder.words());
       for (std::size_t i = 0; i < covered_.cost.size(); ++i) {
-        instrumenter::decodeInto(
-            captured.layout, field, components,
-            captured.threads.data.data() + i * static_cast<std::size_t>(captured.threads.words),
-            value.data());
+        captured.threads.read(i, thread.data());
+        decoder.decode(thread.data(), value.data());
         for (std::size_t w = 0; w < value.size(); ++w)
           words_[i * stride + first + w] =
               truth && value[w] != 0 ? std::bit_cast<std::uint32_t>(1.0F) : value[w];

@@ -19,12 +19,12 @@ const char* methodName(Method method) {
 }
 
 CostMap coveredPixels(const session::Captured& captured, const ProfileOptions& options) {
-  CostMap map(captured.threads.width, captured.threads.height);
+  CostMap map(captured.threads.width(), captured.threads.height());
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x)
       if ((!options.roi || options.roi->contains(x, y)) &&
-          (instrumenter::decodeMark(captured.layout, captured.threads.at(x, y)) & instrumenter::kLaunched) !=
-              0)
+          (instrumenter::decodeMark(captured.layout, captured.threads.head(captured.threads.index(x, y))) &
+           instrumenter::kLaunched) != 0)
         map.state[map.index(x, y)] = PixelState::measured;
   if (std::find(map.state.begin(), map.state.end(), PixelState::measured) == map.state.end())
     throw session::Error(session::Outcome::nothing_matches,

@@ -24,11 +24,11 @@ int widthOf(const ThreadList& threads) {
 ThreadList threadsOf(const session::Captured& captured) {
   ThreadList threads;
   for (const instrumenter::Field& field : captured.layout.identity) threads.names.push_back(field.name);
-  for (int i = 0; i < captured.threads.width; ++i) {
+  for (int i = 0; i < captured.threads.width(); ++i) {
     threads.numbers.emplace_back();
     for (const instrumenter::Field& field : captured.layout.identity)
       threads.numbers.back().push_back(std::bit_cast<std::int32_t>(
-          instrumenter::decode(captured.layout, field, captured.threads.at(i, 0)).words.at(0)));
+          instrumenter::decode(captured.layout, field, captured.threads.at(i, 0).data()).words.at(0)));
   }
   return threads;
 }
@@ -36,11 +36,12 @@ ThreadList threadsOf(const session::Captured& captured) {
 CostMap foldThreads(const session::Captured& captured, const ThreadList& threads) {
   if (threads.numbers.empty())
     throw session::Error(session::Outcome::nothing_matches, "no thread of this stage runs in this draw");
-  const int count = captured.threads.width;
+  const int count = captured.threads.width();
   const int width = widthOf(threads);
   CostMap map(width, (count + width - 1) / width);
   for (int i = 0; i < count; ++i)
-    if ((instrumenter::decodeMark(captured.layout, captured.threads.at(i, 0)) & instrumenter::kLaunched) != 0)
+    if ((instrumenter::decodeMark(captured.layout, captured.threads.at(i, 0).data()) &
+         instrumenter::kLaunched) != 0)
       map.state[static_cast<std::size_t>(i)] = PixelState::measured;
   return map;
 }

@@ -13,32 +13,36 @@ struct Nearest {
 
 }  // namespace
 
+bool severalPlanes(const DrawFacts& facts) {
+  return facts.layers > 1 || facts.samples > 1;
+}
+
 std::string addDiscarded(ThreadWords& threads, const instrumenter::AttachmentLayout& layout,
                          const instrumenter::DiscardedThreads& discarded, bool from_top) {
   std::unordered_map<std::size_t, Nearest> on_pixel;
   for (const instrumenter::DiscardedThread& thread : discarded.threads) {
-    const int y = from_top ? threads.height - 1 - thread.y : thread.y;
-    if (thread.x < 0 || y < 0 || thread.x >= threads.width || y >= threads.height) continue;
-    Nearest& nearest = on_pixel[static_cast<std::size_t>(y) * static_cast<std::size_t>(threads.width) +
-                                static_cast<std::size_t>(thread.x)];
+    const int y = from_top ? threads.height() - 1 - thread.y : thread.y;
+    if (thread.x < 0 || y < 0 || thread.x >= threads.width() || y >= threads.height()) continue;
+    Nearest& nearest = on_pixel[threads.index(thread.x, y)];
     if (nearest.thread == nullptr || thread.depth < nearest.thread->depth)
       nearest = {&thread, false};
     else if (!(thread.depth > nearest.thread->depth))
       nearest.several = true;
   }
 
-  const auto words = static_cast<std::size_t>(threads.words);
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(threads.words()));
   std::uint64_t unclear = 0;
   for (const auto& [pixel, nearest] : on_pixel) {
-    std::uint32_t* here = threads.data.data() + pixel * words;
-    if (instrumenter::decodeMark(layout, here) != 0) continue;  // the pixel shows another fragment
+    if (instrumenter::decodeMark(layout, threads.head(pixel)) != 0)
+      continue;  // the pixel shows another fragment
     if (nearest.several) {
       ++unclear;
       continue;
     }
-    std::copy_n(nearest.thread->words, words, here);
-    here[0] =
-        instrumenter::encodeMark(layout, instrumenter::decodeMark(layout, here) | instrumenter::kDiscarded);
+    std::copy_n(nearest.thread->words, words.size(), words.begin());
+    words[0] = instrumenter::encodeMark(
+        layout, instrumenter::decodeMark(layout, words.data()) | instrumenter::kDiscarded);
+    threads.write(pixel, words.data());
   }
   if (discarded.ended > discarded.threads.size())
     return "of " + std::to_string(discarded.ended) + " threads that end in a discard only " +

@@ -158,27 +158,32 @@ void takeOutDropped(Session& session, const std::vector<frontend::Watch>& watche
 }
 
 std::string droppedUniforms(Session& session) {
-  const Shader& shader = session.shader();
+  return droppedUniforms(session.shader(), session.facts());
+}
+
+std::string droppedUniforms(const Shader& shader, const DrawFacts& facts) {
   std::vector<VariableId> whole, parts;
   for (std::size_t i = 0; i < shader.variables.size(); ++i) {
     const Variable& variable = shader.variables[i];
     if (variable.storage != Storage::uniform || !variable.read || isSubroutine(shader, variable)) continue;
-    const Parts found = partsOf(session.facts().active_uniforms, variable, variable.name);
+    const Parts found = partsOf(facts.active_uniforms, variable, variable.name);
     if (found.dropped == 0) continue;
     (found.alive == 0 ? whole : parts).push_back(static_cast<VariableId>(i));
   }
+  const auto dependent = [&shader](const std::vector<VariableId>& uniforms) {
+    const std::vector<VariableId> ids = frontend::mayDependOn(shader, uniforms);
+    return ids.empty() ? "" : ", also in what is computed from them: perhaps in " + listed(shader, ids);
+  };
   std::string text;
   if (!whole.empty()) {
     text = "the driver dropped uniforms that nothing drawn depends on, and with them what the program set: " +
-           listed(shader, whole) + "; zero stands for them";
-    const std::vector<VariableId> dependent = frontend::mayDependOn(shader, whole);
-    if (!dependent.empty())
-      text += ", also in what is computed from them: perhaps in " + listed(shader, dependent);
+           listed(shader, whole) + "; zero stands for them" + dependent(whole);
   }
-  if (!parts.empty())
-    text += (text.empty() ? "" : "; ") + ("the driver kept of these uniforms only what is drawn with, zero "
-                                          "stands for the rest: " +
-                                          listed(shader, parts));
+  if (!parts.empty()) {
+    text += (text.empty() ? "" : "; ") +
+            ("the driver kept of these uniforms only what is drawn with: " + listed(shader, parts) +
+             "; zero stands for the rest" + dependent(parts));
+  }
   return text;
 }
 

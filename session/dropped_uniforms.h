@@ -17,5 +17,6 @@ void takeOutDropped(Session&, const std::vector<frontend::Watch>& watches, Threa
 // Which uniforms the current draw's fragment shader names in vain, and which variables may depend on them, as
 // a sentence for the user; "" if there are none.
 std::string droppedUniforms(Session&);
+std::string droppedUniforms(const frontend::Shader&, const DrawFacts&);
 
 }  // namespace shadestep::session

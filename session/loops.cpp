@@ -66,7 +66,7 @@ Captured captureLoops(Session& session, const std::vector<StatementId>& loops, s
 
 LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captured, std::size_t number,
                     const std::vector<std::uint8_t>& marks) {
-  const auto pixels = captured.threads.data.size() / static_cast<std::size_t>(captured.layout.words);
+  const std::size_t pixels = captured.threads.count();
   LoopReport loop;
   loop.statement = id;
   const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(id)];
@@ -76,13 +76,17 @@ LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captur
   loop.longest.assign(pixels, 0);
   std::vector<std::uint32_t> longest;
   std::uint64_t sum = 0;
+  std::vector<instrumenter::FieldDecoder> decoders;
+  for (std::size_t which = 0; which < kFields; ++which)
+    decoders.emplace_back(captured.layout, captured.layout.fields[number * kFields + which]);
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
   for (std::size_t p = 0; p < pixels; ++p) {
-    const std::uint32_t* words =
-        captured.threads.data.data() + p * static_cast<std::size_t>(captured.layout.words);
     if (marks[p] == 0) continue;
+    captured.threads.read(p, words.data());
     const auto field = [&](std::size_t which) {
-      return instrumenter::decode(captured.layout, captured.layout.fields[number * kFields + which], words)
-          .words.at(0);
+      std::uint32_t value = 0;
+      decoders[which].decode(words.data(), &value);
+      return value;
     };
     const std::uint32_t entries = field(0);
     if (entries == 0) continue;
@@ -109,12 +113,11 @@ LoopsReport profileLoops(Session& session, int line, const std::vector<std::uint
   while (report.loops.size() < loops.size()) {
     const Captured captured = captureLoops(session, loops, report.loops.size());
     if (report.loops.empty()) {
-      report.width = captured.threads.width;
-      report.height = captured.threads.height;
-      const auto stride = static_cast<std::size_t>(captured.layout.words);
-      for (std::size_t at = 0; at < captured.threads.data.size(); at += stride) {
-        const auto mark = instrumenter::decodeMark(captured.layout, captured.threads.data.data() + at);
-        const bool wanted = only.empty() || only.at(report.marks.size()) != 0;
+      report.width = captured.threads.width();
+      report.height = captured.threads.height();
+      for (std::size_t p = 0; p < captured.threads.count(); ++p) {
+        const auto mark = instrumenter::decodeMark(captured.layout, captured.threads.head(p));
+        const bool wanted = only.empty() || only.at(p) != 0;
         report.marks.push_back(wanted ? static_cast<std::uint8_t>(mark) : 0);
       }
       report.check = captured.execution.check;

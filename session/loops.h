@@ -16,11 +16,12 @@ struct LoopReport {
   // active[i]: threads that begin iteration i; left[i]: those of them that do not begin iteration i+1.
   // Where a thread enters the loop more than once (`entries` > 1), its longest entry counts.
   std::vector<std::uint64_t> active, left;
-  std::uint32_t entries = 0;              // most entries by one thread
-  std::uint32_t max = 0;                  // iterations of the longest thread, all entries together
-  double mean = 0;                        // iterations per thread that enters
-  // Threads that left it although neither its condition nor a jump ended it: the driver did (llvmpipe does, after 65,536
-  // iterations of all loops of a thread together). Their counts are the driver's, not the shader's.
+  std::uint32_t entries = 0;  // most entries by one thread
+  std::uint32_t max = 0;      // iterations of the longest thread, all entries together
+  double mean = 0;            // iterations per thread that enters
+  // Threads that left it although neither its condition nor a jump ended it: the driver did (llvmpipe does,
+  // after 65,536 iterations of all loops of a thread together). Their counts are the driver's, not the
+  // shader's.
   std::uint64_t cut = 0;
   std::vector<std::uint32_t> iterations;  // per pixel, rows bottom up, all entries together
   std::vector<std::uint32_t> longest;     // per pixel: of its longest entry

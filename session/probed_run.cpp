@@ -25,8 +25,8 @@ bool runsAsAWhole(const Statement& statement) {
 
 class ProbedRun {
  public:
-  // The thread's words in a capture; null if it is not there.
-  using Find = std::function<const std::uint32_t*(const Captured&)>;
+  // The thread in a capture; past its end if it is not there.
+  using Find = std::function<std::size_t(const Captured&)>;
   ProbedRun(Session& session, Find find, std::string none)
       : session_(session),
         shader_(session.shader()),
@@ -71,14 +71,16 @@ class ProbedRun {
       const Captured captured = session_.capture(std::get<instrumenter::AttachmentShader>(instrumented));
       looked = true;
       run_.check.merge(captured.execution.check);
-      const std::uint32_t* words = find_(captured);
-      const std::uint32_t mark = words == nullptr ? 0 : instrumenter::decodeMark(captured.layout, words);
+      std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
+      if (const std::size_t thread = find_(captured); thread < captured.threads.count())
+        captured.threads.read(thread, words.data());
+      const std::uint32_t mark = instrumenter::decodeMark(captured.layout, words.data());
       if (mark == 0 && run_.steps.empty()) throw Error(Outcome::nothing_matches, none_);
       reached_ = (mark & instrumenter::kReached) != 0;
       if (!reached_) return {};
       std::size_t taken = 0;
       for (const instrumenter::Field& field : captured.layout.fields) {
-        values.push_back({field.name, instrumenter::decode(captured.layout, field, words)});
+        values.push_back({field.name, instrumenter::decode(captured.layout, field, words.data())});
         taken += field.name.empty() ? 0 : 1;
       }
       if (taken == 0) break;
@@ -239,7 +241,7 @@ class ProbedRun {
 }  // namespace
 
 ThreadRun followPixelByProbes(Session& session, int x, int y, std::size_t most_steps) {
-  const auto find = [x, y](const Captured& captured) { return captured.threads.at(x, y); };
+  const auto find = [x, y](const Captured& captured) { return captured.threads.index(x, y); };
   ThreadRun run = ProbedRun(session, find,
                             "the draw has no visible fragment on pixel " + std::to_string(x) + "," +
                                 std::to_string(y) + "; pick one that it covers")
@@ -254,10 +256,7 @@ ThreadRun followPixelByProbes(Session& session, int x, int y, std::size_t most_s
 }
 
 ThreadRun followThreadByProbes(Session& session, std::size_t number, std::size_t most_steps) {
-  const auto find = [number](const Captured& captured) {
-    const bool there = number < static_cast<std::size_t>(captured.threads.width);
-    return there ? captured.threads.at(static_cast<int>(number), 0) : nullptr;
-  };
+  const auto find = [number](const Captured&) { return number; };
   return ProbedRun(session, find, "the draw does not run this thread").follow(most_steps);
 }
 

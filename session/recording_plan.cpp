@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "session/discarded_threads.h"
 #include "session/hit_values.h"
 #include "session/recorded_visits.h"
 
@@ -43,7 +44,7 @@ void RecordingPlan::record() {
   const instrumenter::AttachmentLayout& attachment = recorded_->layout.attachment;
   for (int y = 0; y < facts.height; ++y) {
     for (int x = 0; x < facts.width; ++x) {
-      const std::uint32_t* words = recorded_->visible.at(x, y);
+      const std::uint32_t* words = recorded_->visible.head(recorded_->visible.index(x, y));
       const bool shows = instrumenter::decodeMark(attachment, words) != 0;
       const auto found =
           shows ? by_invocation.find(
@@ -58,6 +59,7 @@ void RecordingPlan::record() {
 // Where the draw shows no thread: the one that ends in a discard there. Which of several is the nearest a
 // recording does not say.
 void RecordingPlan::showDiscarded() {
+  if (severalPlanes(session_.facts())) return;
   const auto& threads = recorded_->recording.threads;
   std::unordered_map<std::size_t, std::vector<int>> ended;
   for (std::size_t i = 0; i < threads.size(); ++i) {
@@ -136,6 +138,10 @@ ThreadValues RecordingPlan::look(const Probe& probe) {
         put(recordedValue(shader, *visit, watch).words.data());
     }
   }
+  const auto& threads = recorded_->recording.threads;
+  const bool any_discarded =
+      std::any_of(threads.begin(), threads.end(), [](const auto& thread) { return thread.discarded; });
+  if (severalPlanes(session_.facts()) && any_discarded) result.check.left_out = kDiscardedPlanes;
   if (unclear > 0)
     result.check.left_out = "on " + std::to_string(unclear) +
                             " pixels several threads end in a discard and are left out by this plan; --plan "

@@ -21,6 +21,7 @@
 #include "session/calls.h"
 #include "session/error.h"
 #include "session/fragment_choice.h"
+#include "session/thread_words.h"
 
 namespace shadestep::wire {
 struct PrepareT;
@@ -70,8 +71,8 @@ using ThreadName = std::vector<std::pair<std::string, std::int32_t>>;
 
 struct StageFacts {
   Stage stage = Stage::fragment;
-  std::vector<frontend::ShaderStrings> objects;  // the shader objects that it is linked from
-  std::string reason;                            // why it cannot be debugged; empty if it can
+  std::vector<frontend::ShaderObject> objects;  // the shader objects that it is linked from
+  std::string reason;                           // why it cannot be debugged; empty if it can
 };
 
 struct DrawFacts {
@@ -123,7 +124,6 @@ struct Uniform {
   std::uint32_t gl_type = 0;         // GL_INT_VEC4, ...
   std::vector<std::uint32_t> words;  // as glUniform*v takes them
 };
-std::uint32_t glUniformType(const frontend::Type&);  // 0 if it cannot be a plain uniform
 
 // A program prepared in the program under debug; released when it goes out of scope or the draw is left.
 class Session;
@@ -168,7 +168,7 @@ struct ColorOutput {
 
 struct Execution {
   int width = 0, height = 0;
-  std::vector<std::span<const std::uint32_t>>
+  std::vector<std::span<std::uint32_t>>
       attachments;  // each width*height*4 words, rows bottom up; in `memory`
   std::shared_ptr<const wire::SharedMemory> memory;
   std::vector<ColorOutput> outputs;  // the program's own
@@ -201,22 +201,10 @@ struct SampledTexture {
   std::vector<Size> levels;  // from the base level on, those that a lookup can read
 };
 
-// The words of all threads of a capture, one block of `words` per pixel. Of other stages than the fragment
-// stage the threads lie in one row, in the order of their identities or, by transform feedback, as they were
-// issued.
-struct ThreadWords {
-  int width = 0, height = 0, words = 0;
-  std::vector<std::uint32_t> data;
-  const std::uint32_t* at(int x, int y) const {
-    return data.data() +
-           (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-               static_cast<std::size_t>(words);
-  }
-};
 struct Captured {
   ThreadWords threads;
   instrumenter::AttachmentLayout layout;
-  Execution execution;  // its attachments are moved into `threads`
+  Execution execution;
 };
 
 // Why and where runUntil stopped.
@@ -317,7 +305,7 @@ class Session {
   Prepared prepareStorage(const std::string& text, const std::string& block);
   Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);  // isolate
   Execution execute(const Prepared&, const ExecuteOptions& = {});
-  // prepare + execute + join the attachments per pixel. Threads that end in a discard are put where the draw
+  // prepare + execute. Threads that end in a discard are put where the draw
   // shows none of its fragments, marked kDiscarded: the nearest of them; where that is not clear, none, and
   // `left_out` says so.
   Captured capture(const instrumenter::AttachmentShader&, const ExecuteOptions& = {});
@@ -357,7 +345,7 @@ class Session {
 // Does gl_FragCoord count rows from the top (layout(origin_upper_left))?
 bool countsRowsFromTop(const frontend::Shader&);
 
-// Joins attachments of 4 words a pixel into one block of `words` a pixel.
-ThreadWords joinAttachments(const Execution&, int words);
+// The first `words` of each thread in the attachments.
+ThreadWords threadWords(const Execution&, int words);
 
 }  // namespace shadestep::session

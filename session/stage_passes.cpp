@@ -28,16 +28,14 @@ int wordsPerThread(const AttachmentLayout& layout) {
 
 // `words` of each record, which are `stride` apart.
 ThreadWords threadsOf(std::span<const std::uint32_t> records, int stride, int words) {
-  ThreadWords threads;
-  threads.width = stride > 0 ? static_cast<int>(records.size() / static_cast<std::size_t>(stride)) : 0;
-  threads.height = 1;
-  threads.words = words;
-  threads.data.reserve(static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(words));
-  for (int i = 0; i < threads.width; ++i) {
+  const int count = stride > 0 ? static_cast<int>(records.size() / static_cast<std::size_t>(stride)) : 0;
+  std::vector<std::uint32_t> blocks;
+  blocks.reserve(static_cast<std::size_t>(count) * static_cast<std::size_t>(words));
+  for (int i = 0; i < count; ++i) {
     const auto first = records.begin() + static_cast<std::ptrdiff_t>(i) * stride;
-    threads.data.insert(threads.data.end(), first, first + words);
+    blocks.insert(blocks.end(), first, first + words);
   }
-  return threads;
+  return {count, 1, words, std::move(blocks)};
 }
 
 // Threads list themselves as they end. Sorted by their identities, which are integers: rows of vertices and
@@ -46,21 +44,24 @@ void sortByIdentity(ThreadWords& threads, const AttachmentLayout& layout, Stage 
   std::vector<int> words;
   for (const instrumenter::Field& field : layout.identity) words.push_back(field.first_word);
   if (stage == Stage::vertex || stage == Stage::compute) std::reverse(words.begin(), words.end());
-  std::vector<int> order(static_cast<std::size_t>(threads.width));
-  std::iota(order.begin(), order.end(), 0);
-  const auto before = [&](int a, int b) {
+  std::vector<std::size_t> order(threads.count());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto before = [&](std::size_t a, std::size_t b) {
     for (const int word : words) {
-      const auto left = static_cast<std::int32_t>(threads.at(a, 0)[word]);
-      const auto right = static_cast<std::int32_t>(threads.at(b, 0)[word]);
+      const auto left = static_cast<std::int32_t>(threads.word(a, word));
+      const auto right = static_cast<std::int32_t>(threads.word(b, word));
       if (left != right) return left < right;
     }
     return false;
   };
   std::stable_sort(order.begin(), order.end(), before);
-  std::vector<std::uint32_t> sorted;
-  sorted.reserve(threads.data.size());
-  for (const int i : order) sorted.insert(sorted.end(), threads.at(i, 0), threads.at(i, 0) + threads.words);
-  threads.data = std::move(sorted);
+  std::vector<std::uint32_t> sorted(threads.count() * static_cast<std::size_t>(threads.words()));
+  auto* next = sorted.data();
+  for (const std::size_t i : order) {
+    threads.read(i, next);
+    next += threads.words();
+  }
+  threads = ThreadWords(threads.width(), 1, threads.words(), std::move(sorted));
 }
 
 }  // namespace

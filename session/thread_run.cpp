@@ -47,7 +47,7 @@ std::vector<ThreadRun::Output> outputsAt(const Execution& execution, int x, int 
 // Which fragment the pixel shows is written to the attachment by the fragment itself.
 int visibleThread(const Session::Recorded& recorded, int x, int y) {
   const instrumenter::AttachmentLayout& attachment = recorded.layout.attachment;
-  const std::uint32_t* words = recorded.visible.at(x, y);
+  const std::uint32_t* words = recorded.visible.head(recorded.visible.index(x, y));
   if (instrumenter::decodeMark(attachment, words) == 0) return -1;
   const std::uint32_t shown = instrumenter::decode(attachment, attachment.fields.at(0), words).words.at(0);
   const auto& threads = recorded.recording.threads;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <set>
 
@@ -141,22 +142,23 @@ std::vector<frontend::Watch> watchesAt(const Shader& shader, const Probe& probe,
 
 namespace {
 
-template <class Has>
-WatchedValues valuesOf(const ThreadWords& threads, const instrumenter::AttachmentLayout& layout,
-                       const instrumenter::Field& field, Has has) {
-  const std::vector<frontend::Component> components = frontend::components(field.type);
-  const auto stride = static_cast<std::size_t>(layout.words);
-  const std::size_t count =
-      static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(threads.height);
-  WatchedValues values{field.name, field.type, static_cast<std::size_t>(frontend::wordCount(field.type)), {}};
-  values.words.assign(count * values.stride, 0);
-  for (std::size_t p = 0; p < count; ++p) {
-    if (!has(p)) continue;
-    instrumenter::decodeInto(layout, field, components, threads.data.data() + p * stride,
-                             values.words.data() + p * values.stride);
+// Fields of all threads, to be filled in thread by thread.
+struct FieldValues {
+  FieldValues(const instrumenter::AttachmentLayout& layout, const std::vector<instrumenter::Field>& fields,
+              std::size_t threads) {
+    for (const instrumenter::Field& field : fields) {
+      decoders.emplace_back(layout, field);
+      const std::size_t words = decoders.back().words();
+      values.push_back({field.name, field.type, words, std::vector<std::uint32_t>(threads * words)});
+    }
   }
-  return values;
-}
+  void decode(std::size_t thread, const std::uint32_t* words) {
+    for (std::size_t i = 0; i < decoders.size(); ++i)
+      decoders[i].decode(words, values[i].words.data() + thread * values[i].stride);
+  }
+  std::vector<instrumenter::FieldDecoder> decoders;
+  std::vector<WatchedValues> values;
+};
 
 [[noreturn]] void disagree() {
   throw Error(Outcome::failed,
@@ -179,39 +181,36 @@ void requireSameThreads(const ThreadValues& known, const ThreadWords& threads,
 
 void addPass(ThreadValues& result, const ThreadWords& threads, const instrumenter::AttachmentLayout& layout,
              const Check& check) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(threads.height);
-  const auto stride = static_cast<std::size_t>(layout.words);
   const bool first = result.marks.empty();
   if (first) {
-    result.width = threads.width;
-    result.height = threads.height;
-    result.marks.resize(pixels);
+    result.width = threads.width();
+    result.height = threads.height();
+    result.marks.resize(threads.count());
     result.check = check;
   } else {
     result.check.merge(check);
     requireSameThreads(result, threads, layout);
   }
-  for (std::size_t p = 0; p < pixels; ++p) {
-    const auto mark =
-        static_cast<std::uint8_t>(instrumenter::decodeMark(layout, threads.data.data() + p * stride));
+  FieldValues fields(layout, layout.fields, threads.count());
+  FieldValues identity(layout, first ? layout.identity : std::vector<instrumenter::Field>(), threads.count());
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(threads.words()));
+  for (std::size_t p = 0; p < threads.count(); ++p) {
+    const auto mark = static_cast<std::uint8_t>(instrumenter::decodeMark(layout, threads.head(p)));
     if (!first && mark != result.marks[p]) {
       disagree();
     }
     result.marks[p] = mark;
+    if (mark == 0) continue;
+    if (result.reachedAt(p) || !identity.values.empty()) threads.read(p, words.data());
+    identity.decode(p, words.data());
+    if (result.reachedAt(p)) fields.decode(p, words.data());
     if (!first) continue;
-    result.launched += mark != 0 ? 1 : 0;
+    ++result.launched;
     result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
     result.discarded += (mark & instrumenter::kDiscarded) != 0 ? 1 : 0;
   }
-  if (first) {
-    for (const instrumenter::Field& field : layout.identity)
-      result.identity.push_back(
-          valuesOf(threads, layout, field, [&](std::size_t p) { return result.marks[p] != 0; }));
-  }
-  for (const instrumenter::Field& field : layout.fields)
-    result.values.push_back(
-        valuesOf(threads, layout, field, [&](std::size_t p) { return result.reachedAt(p); }));
+  if (first) result.identity = std::move(identity.values);
+  std::move(fields.values.begin(), fields.values.end(), std::back_inserter(result.values));
 }
 
 std::optional<std::size_t> ThreadValues::find(const ThreadName& name) const {

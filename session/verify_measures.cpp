@@ -113,7 +113,8 @@ void checkCounts(Session& session, Findings& findings, const std::vector<Recorde
     const Statement& at = shader.statements[static_cast<std::size_t>(id)];
     for (const RecordedPixel& one : recorded) {
       const auto words =
-          instrumenter::decode(captured.layout, field, captured.threads.at(one.pixel.x, one.pixel.y)).words;
+          instrumenter::decode(captured.layout, field, captured.threads.at(one.pixel.x, one.pixel.y).data())
+              .words;
       expect(findings, at, "count", one.pixel, words.at(0), records(one, id, eventOf(at)));
     }
   }

@@ -15,8 +15,8 @@ bool any(const std::vector<std::uint64_t>& counts) {
 }
 
 Refusal readInto(Traces& traces, wire::SharedMemory& into) {
-  into = wire::SharedMemory::create("shadestep-outputs",
-                                    std::max<std::size_t>(guard::totalBytes(traces.sections()), 1));
+  const std::size_t bytes = std::max<std::size_t>(guard::totalBytes(traces.sections()), 1);
+  if (into.size() != bytes) into = wire::SharedMemory::create("shadestep-outputs", bytes);
   if (!into) return guard::limit("there is not enough shared memory to compare what two draws leave");
   return traces.read(into.data());
 }
@@ -60,16 +60,15 @@ Refusal Check::keepReference(Traces& traces) {
   return refusal;
 }
 
-Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& executed) const {
+Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& executed) {
   const std::vector<Section> sections = traces.sections();
-  wire::SharedMemory drawn;
-  if (Refusal refusal = readInto(traces, drawn); !refusal.text.empty()) return refusal;
-  if (drawn.size() != reference_.size()) {
+  if (Refusal refusal = readInto(traces, drawn_); !refusal.text.empty()) return refusal;
+  if (drawn_.size() != reference_.size()) {
     executed.compare_reason =
         "two replays of the draw differ in what they leave behind: its inputs are not the same";
     return {};
   }
-  const std::vector<std::uint64_t> differing = guard::differences(sections, reference_.data(), drawn.data());
+  const std::vector<std::uint64_t> differing = guard::differences(sections, reference_.data(), drawn_.data());
   std::vector<std::uint64_t> unstable(sections.size(), 0);
   if (any(differing)) {
     if (Refusal refusal = again(); !refusal.text.empty()) return refusal;

@@ -73,10 +73,12 @@ class Check {
 
   // Compares what lies there now, and fills the answer's fields about it. After `again` was called, what the
   // instrumented replay left is gone.
-  guard::Refusal compare(Traces&, const Again& again, wire::ExecutedT&) const;
+  guard::Refusal compare(Traces&, const Again& again, wire::ExecutedT&);
 
  private:
   wire::SharedMemory reference_;
+  wire::SharedMemory
+      drawn_;  // what the last replay left: kept, because new pages cost more than reading into them
 };
 
 }  // namespace shadestep::agent

@@ -9,6 +9,7 @@
 #include "interceptor/agent/executed.h"
 #include "interceptor/agent/query_pause.h"
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/fragment_guards.h"
 #include "interceptor/guard/state_digest.h"
 #include "interceptor/replay/writable.h"
 

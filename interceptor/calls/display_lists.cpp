@@ -7,11 +7,13 @@
 
 #include "interceptor/calls/hooks.h"
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/query.h"
 
 namespace shadestep::calls {
 namespace {
 
 using dispatch::gl;
+using guard::integer;
 
 // The list that this thread compiles, if it does.
 struct Compiling {
@@ -23,12 +25,6 @@ constinit thread_local Compiling compiling;
 
 // Of any list of the process: they are shared, called by number, and made anew under the same number.
 constinit std::atomic<const char*> listed{nullptr};
-
-GLint integer(GLenum name) {
-  GLint value = 0;
-  gl().GetIntegerv(name, &value);
-  return value;
-}
 
 }  // namespace
 

@@ -8,18 +8,14 @@
 #include "interceptor/capture/drawable_size.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/query.h"
 #include "interceptor/guard/texture_level.h"
 
 namespace shadestep::capture {
 namespace {
 
 using dispatch::gl;
-
-GLint integer(GLenum name) {
-  GLint value = 0;
-  gl().GetIntegerv(name, &value);
-  return value;
-}
+using guard::integer;
 
 GLint attachmentParameter(GLenum target, GLenum attachment, GLenum name) {
   GLint value = 0;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "interceptor/dispatch/dispatch.h"
-#include "interceptor/guard/guards.h"
+#include "interceptor/guard/fragment_guards.h"
 
 namespace shadestep::capture {
 namespace {

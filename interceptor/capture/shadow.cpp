@@ -56,15 +56,7 @@ guard::Refusal Shadow::fill(const guard::FramebufferGuard& clip, const std::vect
                         std::to_string(captures.size()) + " capture buffers; capture less at once");
   }
   if (start == Start::cleared) clearBuffers();
-  for (const CaptureBuffer& capture : captures) {
-    constexpr GLuint kZero[4] = {};
-    constexpr GLfloat kZeroFloat[4] = {};
-    if (capture.format == wire::CaptureFormat::Uint4) {
-      gl().ClearBufferuiv(GL_COLOR, capture.location, kZero);
-    } else {
-      gl().ClearBufferfv(GL_COLOR, capture.location, kZeroFloat);
-    }
-  }
+  if (!captures.empty()) clearMarks(captures.front());
   clip.clipAsProgram();
   if (guard::clearErrors()) return guard::internal("the driver refused to copy the program's framebuffer");
   return {};
@@ -200,6 +192,17 @@ void Shadow::blitBuffers() const {
   if (target_.depth_stencil.depth_bits > 0) rest |= GL_DEPTH_BUFFER_BIT;
   if (target_.depth_stencil.stencil_bits > 0) rest |= GL_STENCIL_BUFFER_BIT;
   if (rest != 0) blit(rest);
+}
+
+// The first capture says which pixels show a thread; what lies beside no thread in the others means nothing.
+void Shadow::clearMarks(const CaptureBuffer& capture) {
+  constexpr GLuint kZero[4] = {};
+  constexpr GLfloat kZeroFloat[4] = {};
+  if (capture.format == wire::CaptureFormat::Uint4) {
+    gl().ClearBufferuiv(GL_COLOR, capture.location, kZero);
+  } else {
+    gl().ClearBufferfv(GL_COLOR, capture.location, kZeroFloat);
+  }
 }
 
 void Shadow::clearBuffers() const {

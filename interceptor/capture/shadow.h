@@ -70,6 +70,7 @@ class Shadow {
   void copyLayer(int layer);
   void blitBuffers() const;
   void clearBuffers() const;
+  static void clearMarks(const CaptureBuffer&);
   void selectDrawBuffers(const std::vector<CaptureBuffer>&) const;
   void bindColor(int location, const Image&, GLenum type, Plane);
   bool readsDepth() const;

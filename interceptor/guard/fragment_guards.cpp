@@ -3,17 +3,12 @@
 #include "interceptor/guard/fragment_guards.h"
 
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/query.h"
 
 namespace shadestep::guard {
 namespace {
 
 using dispatch::gl;
-
-GLint integer(GLenum name) {
-  GLint value = 0;
-  gl().GetIntegerv(name, &value);
-  return value;
-}
 
 int blendedBuffers(const ContextFacts& facts) {
   return facts.indexedDrawBuffers() ? integer(GL_MAX_DRAW_BUFFERS) : 0;
@@ -117,6 +112,28 @@ PlainColorGuard::~PlainColorGuard() {
   if (clamps_) gl().ClampColor(GL_CLAMP_FRAGMENT_COLOR, static_cast<GLenum>(clamp_));
 }
 
+// ---- single draw buffers
+// -------------------------------------------------------------------------------------
+
+CaptureBufferGuard::CaptureBufferGuard(const ContextFacts& facts, const std::vector<int>& draw_buffers) {
+  if (!facts.indexedDrawBuffers()) return;
+  for (const int buffer : draw_buffers) {
+    Saved saved{static_cast<GLuint>(buffer), GL_FALSE, {}};
+    saved.blend = gl().IsEnabledi(GL_BLEND, saved.index);
+    gl().GetBooleani_v(GL_COLOR_WRITEMASK, saved.index, saved.mask);
+    gl().Disablei(GL_BLEND, saved.index);
+    gl().ColorMaski(saved.index, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    saved_.push_back(saved);
+  }
+}
+
+CaptureBufferGuard::~CaptureBufferGuard() {
+  for (const Saved& saved : saved_) {
+    if (saved.blend) gl().Enablei(GL_BLEND, saved.index);
+    gl().ColorMaski(saved.index, saved.mask[0], saved.mask[1], saved.mask[2], saved.mask[3]);
+  }
+}
+
 // ---- tests
 // ---------------------------------------------------------------------------------------------------
 
@@ -132,6 +149,76 @@ void FragmentTestsGuard::force(GLenum capability, wire::Switch to, int indices) 
   if (to == wire::Switch::Keep) return;
   const CapabilityGuard& guard = capabilities_.emplace_back(capability, indices);
   to == wire::Switch::On ? guard.enable() : guard.disable();
+}
+
+// ---- a plain raster
+// ------------------------------------------------------------------------------------------
+
+PlainRasterGuard::PlainRasterGuard(const ContextFacts& facts, int width, int height)
+    : viewport_arrays_(facts.viewportArrays()),
+      polygon_mode_(!facts.es),
+      clip_control_(facts.clipControl()),
+      masks_(facts) {
+  const int viewports = viewportCount(facts);
+
+  for (int i = 0; i < (viewport_arrays_ ? viewports : 1); ++i) {
+    Viewport viewport{};
+    if (viewport_arrays_) {
+      gl().GetFloati_v(GL_VIEWPORT, static_cast<GLuint>(i), viewport.box);
+    } else {
+      gl().GetFloatv(GL_VIEWPORT, viewport.box);
+    }
+    viewports_.push_back(viewport);
+  }
+  gl().Viewport(0, 0, width, height);
+
+  if (clip_control_) {
+    clip_origin_ = integer(GL_CLIP_ORIGIN);
+    clip_depth_ = integer(GL_CLIP_DEPTH_MODE);
+    gl().ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  }
+
+  disable(GL_SCISSOR_TEST, viewports);
+  disable(GL_BLEND, blendedBuffers(facts));
+  disable(GL_DEPTH_TEST);
+  disable(GL_STENCIL_TEST);
+  disable(GL_CULL_FACE);
+  if (facts.atLeast(30, 30)) disable(GL_RASTERIZER_DISCARD);
+  if (facts.es) return;
+  disable(GL_COLOR_LOGIC_OP);
+  for (GLenum plane = 0; plane < 6; ++plane) disable(GL_CLIP_PLANE0 + plane);
+  if (facts.srgbSwitch()) disable(GL_FRAMEBUFFER_SRGB);
+  if (facts.compatibility()) {
+    disable(GL_ALPHA_TEST);
+    disable(GL_POLYGON_STIPPLE);
+    disable(GL_POLYGON_SMOOTH);
+  }
+  gl().GetIntegerv(GL_POLYGON_MODE, polygon_modes_);
+  gl().PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void PlainRasterGuard::disable(GLenum capability, int indices) {
+  capabilities_.emplace_back(capability, indices).disable();
+}
+
+PlainRasterGuard::~PlainRasterGuard() {
+  for (GLuint i = 0; i < viewports_.size(); ++i) {
+    const GLfloat* box = viewports_[i].box;
+    if (viewport_arrays_) {
+      gl().ViewportIndexedf(i, box[0], box[1], box[2], box[3]);
+    } else {
+      gl().Viewport(static_cast<GLint>(box[0]), static_cast<GLint>(box[1]), static_cast<GLsizei>(box[2]),
+                    static_cast<GLsizei>(box[3]));
+    }
+  }
+  if (clip_control_) gl().ClipControl(static_cast<GLenum>(clip_origin_), static_cast<GLenum>(clip_depth_));
+  if (!polygon_mode_) return;
+  if (polygon_modes_[0] == polygon_modes_[1]) {
+    gl().PolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(polygon_modes_[0]));
+  } else {
+    gl().PolygonMode(GL_FRONT, static_cast<GLenum>(polygon_modes_[0]));
+    gl().PolygonMode(GL_BACK, static_cast<GLenum>(polygon_modes_[1]));
+  }
 }
 
 }  // namespace shadestep::guard

@@ -78,6 +78,21 @@ class PlainColorGuard {
   GLint clamp_ = 0;
 };
 
+// Blending and colour mask of single draw buffers; while it lives they write unblended and unmasked.
+class CaptureBufferGuard {
+ public:
+  CaptureBufferGuard(const ContextFacts&, const std::vector<int>& draw_buffers);
+  ~CaptureBufferGuard();
+
+ private:
+  struct Saved {
+    GLuint index;
+    GLboolean blend;
+    GLboolean mask[4];
+  };
+  std::vector<Saved> saved_;
+};
+
 // Tests and blending, forced on or off while it lives. Null: all as the program has it.
 class FragmentTestsGuard {
  public:
@@ -86,6 +101,27 @@ class FragmentTestsGuard {
  private:
   void force(GLenum capability, wire::Switch, int indices = 0);
   std::deque<CapabilityGuard> capabilities_;
+};
+
+// Everything between a triangle and a plain target: tests, blending, masks, culling, viewports. While it
+// lives a triangle is rasterized whole and written as it is to a target of `width` x `height`.
+class PlainRasterGuard {
+ public:
+  PlainRasterGuard(const ContextFacts&, int width, int height);
+  ~PlainRasterGuard();
+
+ private:
+  struct Viewport {
+    GLfloat box[4];
+  };
+  void disable(GLenum capability, int indices = 0);
+
+  bool viewport_arrays_, polygon_mode_, clip_control_;
+  ColorMaskGuard masks_;
+  GLint clip_origin_ = 0, clip_depth_ = 0;
+  std::vector<Viewport> viewports_;
+  GLint polygon_modes_[2] = {};
+  std::deque<CapabilityGuard> capabilities_;  // stays in place: guards neither move nor copy
 };
 
 }  // namespace shadestep::guard

@@ -4,7 +4,6 @@
 // calls GL only through dispatch::gl().
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include "interceptor/guard/context_facts.h"
@@ -12,6 +11,9 @@
 #include "interceptor/registry/gl_types.h"
 
 namespace shadestep::guard {
+
+// How many indexed viewports, and scissor tests, there are: 0 = they are not indexed.
+int viewportCount(const ContextFacts&);
 
 // A capability of glEnable for all indices that it has.
 class CapabilityGuard {
@@ -88,21 +90,6 @@ class PixelReadGuard {
   std::vector<Parameter> pack_, transfer_;
 };
 
-// Blending and colour mask of single draw buffers; while it lives they write unblended and unmasked.
-class CaptureBufferGuard {
- public:
-  CaptureBufferGuard(const ContextFacts&, const std::vector<int>& draw_buffers);
-  ~CaptureBufferGuard();
-
- private:
-  struct Saved {
-    GLuint index;
-    GLboolean blend;
-    GLboolean mask[4];
-  };
-  std::vector<Saved> saved_;
-};
-
 // Where transform feedback goes, which is not active or paused, and rasterization, which is off while it
 // lives.
 class FeedbackGuard {
@@ -137,30 +124,6 @@ class VertexArrayGuard {
 
  private:
   GLint vertex_array_ = 0, array_buffer_ = 0;
-};
-
-// Everything between a triangle and a plain target: tests, blending, masks, culling, viewports. While it
-// lives a triangle is rasterized whole and written as it is to a target of `width` x `height`.
-class PlainRasterGuard {
- public:
-  PlainRasterGuard(const ContextFacts&, int width, int height);
-  ~PlainRasterGuard();
-
- private:
-  struct Viewport {
-    GLfloat box[4];
-  };
-  struct Mask {
-    GLboolean write[4];
-  };
-  void disable(GLenum capability, int indices = 0);
-
-  bool viewport_arrays_, indexed_masks_, polygon_mode_, clip_control_;
-  GLint clip_origin_ = 0, clip_depth_ = 0;
-  std::vector<Viewport> viewports_;
-  std::vector<Mask> masks_;
-  GLint polygon_modes_[2] = {};
-  std::deque<CapabilityGuard> capabilities_;  // stays in place: guards neither move nor copy
 };
 
 // Debug messages: none are made while it lives, so that no callback of the program hears of the agent's

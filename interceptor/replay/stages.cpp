@@ -170,7 +170,7 @@ void setFeedbackVaryings(const guard::ContextFacts& facts, GLuint program, const
                                  GL_INTERLEAVED_ATTRIBS);
 }
 
-void copyFeedbackVaryings(GLuint original, GLuint copy) {
+void copyFeedbackVaryings(const guard::ContextFacts& facts, GLuint original, GLuint copy) {
   GLint count = 0;
   gl().GetProgramiv(original, GL_TRANSFORM_FEEDBACK_VARYINGS, &count);
   if (guard::clearErrors() || count <= 0) return;
@@ -190,6 +190,7 @@ void copyFeedbackVaryings(GLuint original, GLuint copy) {
     names.push_back(std::move(name));
   }
   for (const std::string& name : names) pointers.push_back(name.c_str());
+  const OtherFeedbackObject other(facts);
   gl().TransformFeedbackVaryings(copy, count, pointers.data(), static_cast<GLenum>(mode));
 }
 

@@ -22,7 +22,7 @@ bool runsUpTo(GLenum type, wire::Stage last);
 // Before the link: the outputs that transform feedback gets, in this order.
 void setFeedbackVaryings(const guard::ContextFacts&, GLuint program, const wire::PrepareT&);
 // Before the link: those of the original.
-void copyFeedbackVaryings(GLuint original, GLuint copy);
+void copyFeedbackVaryings(const guard::ContextFacts&, GLuint original, GLuint copy);
 // After it: what the program gives to transform feedback.
 capture::FeedbackLayout feedbackLayout(GLuint program, const wire::PrepareT&);
 

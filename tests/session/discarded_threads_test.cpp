@@ -34,9 +34,7 @@ struct Target {
     layout.words = 2;
     layout.discarded_block = "Discarded";
     layout.discarded_words = 8;
-    threads = {2, 2, 2, std::vector<std::uint32_t>(8)};
-    threads.data[0] = word(3);
-    threads.data[1] = 9;
+    threads = {2, 2, 2, std::vector<std::uint32_t>{word(3), 9, 0, 0, 0, 0, 0, 0}};
     std::vector<std::uint32_t> block = {static_cast<std::uint32_t>(list.size()),
                                         static_cast<std::uint32_t>(room), 0, 0};
     for (const Listed& one : list)
@@ -48,8 +46,10 @@ struct Target {
     left_out = addDiscarded(threads, layout, instrumenter::decodeDiscarded(layout, block), from_top);
   }
 
-  std::uint32_t mark(int x, int y) const { return instrumenter::decodeMark(layout, threads.at(x, y)); }
-  std::uint32_t value(int x, int y) const { return threads.at(x, y)[1]; }
+  std::uint32_t mark(int x, int y) const {
+    return instrumenter::decodeMark(layout, threads.head(threads.index(x, y)));
+  }
+  std::uint32_t value(int x, int y) const { return threads.word(threads.index(x, y), 1); }
 };
 
 constexpr std::uint32_t kEnded = instrumenter::kLaunched | instrumenter::kReached | instrumenter::kDiscarded;

@@ -68,5 +68,37 @@ TEST_F(DroppedUniforms, WhatIsNotThereHasNone) {
     EXPECT_TRUE(hasValue(one)) << one;
 }
 
+// A part that is gone may stand as zero in what is computed from the whole.
+TEST(DroppedParts, AreNamedWithWhatMayDependOnThem) {
+  const frontend::Analysis analysis = frontend::analyse(frontend::Stage::fragment, {R"(#version 330 core
+out vec4 o;
+uniform float list[4];
+uniform float alone, drawn;
+void main() {
+  float third = list[3];
+  float more = third * 2.0;
+  float other = alone;
+  float fine = drawn;
+  o = vec4(list[0], fine, 0.0, 1.0);
+}
+)"},
+                                                        {});
+  ASSERT_TRUE(analysis.shader) << analysis.error;
+  DrawFacts facts;
+  facts.active_uniforms = {{"list[0]", 1}, {"drawn", 1}};
+  const std::string text = droppedUniforms(*analysis.shader, facts);
+  EXPECT_NE(text.find("set: 'alone'; zero stands for them, also in what is computed from them: perhaps in "
+                      "'other'; the driver kept"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(
+      text.find("with: 'list'; zero stands for the rest, also in what is computed from them: perhaps in "
+                "'more', 'o', 'third'"),
+      std::string::npos)
+      << text;
+  facts.active_uniforms = {{"list[0]", 4}, {"drawn", 1}, {"alone", 1}};
+  EXPECT_EQ(droppedUniforms(*analysis.shader, facts), "");
+}
+
 }  // namespace
 }  // namespace shadestep::session
