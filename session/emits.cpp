@@ -28,7 +28,7 @@ class Reader {
   void read() {
     for (std::size_t i = instrumenter::kEmitFields; i < layout_.fields.size(); ++i)
       emits_.outputs.push_back({layout_.fields[i].name, layout_.fields[i].type});
-    for (int i = 0; i < threads_.width; ++i) sort(threads_.at(i, 0));
+    for (std::size_t i = 0; i < threads_.count(); ++i) sort(threads_.head(i));
     // By primitive, and by the order of their start where several have the same number.
     std::vector<const Thread*> ordered;
     for (const auto& [number, thread] : by_start_) ordered.push_back(&thread);

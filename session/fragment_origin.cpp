@@ -99,14 +99,14 @@ void fromVertices(Session& session, FragmentOrigin& origin) {
   if (issued.layout.carrier == instrumenter::Carrier::list || issued.layout.identity.empty())
     cannotTell("this needs transform feedback, and gl_VertexID in the vertex shader");
   add(origin, issued.execution.check);
-  for (const int number : verticesOf(session.stop().mode, origin.primitive, issued.threads.width)) {
-    if (number >= issued.threads.width) cannotTell("the draw has fewer vertices than its primitives need");
+  for (const int number : verticesOf(session.stop().mode, origin.primitive, issued.threads.width())) {
+    if (number >= issued.threads.width()) cannotTell("the draw has fewer vertices than its primitives need");
     ThreadName name;
     for (const instrumenter::Field& field : issued.layout.identity)
       name.emplace_back(
           field.name,
           static_cast<std::int32_t>(
-              instrumenter::decode(issued.layout, field, issued.threads.at(number, 0)).words.at(0)));
+              instrumenter::decode(issued.layout, field, issued.threads.at(number, 0).data()).words.at(0)));
     origin.threads.push_back(std::move(name));
   }
 }

@@ -29,7 +29,7 @@ class ThreadWords {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
-  // A thread's first words: four of them, if it has as many.
+  // A thread's first words: four of them, if it has as many; of blocks, all.
   const std::uint32_t* head(std::size_t thread) const { return planes_[0] + thread * stride_; }
   std::uint32_t word(std::size_t thread, int word) const {
     const auto w = static_cast<std::size_t>(word);

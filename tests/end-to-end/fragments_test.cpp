@@ -175,5 +175,82 @@ TEST(Planes, AreChosenByLayerAndSample) {
   EXPECT_NE(flat.err.find("no layers"), std::string::npos) << flat.err;
 }
 
+// By each plan that can: the same values of the same sample.
+TEST(Planes, OfASampleAreTheSameByAllPlans) {
+  const Scratch scratch;
+  const auto look = [&](const std::string& plan, const std::string& sample) {
+    const std::string csv = plan + sample + ".csv";
+    const Finished run =
+        scratch.shadestep({"debug", "--draw", "1", "--at", "4", "--after", "--print", "color", "--sample",
+                           sample, "--plan", plan, "--csv", csv, "--json"},
+                          {binary("agent-target"), "sample-shading"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.json()["check"]["outputs"], "identical");
+    return readFile(scratch.file(csv));
+  };
+  for (const char* sample : {"0", "2"}) {
+    const std::string single = look("single", sample);
+    EXPECT_GT(single.size(), 10'000U);
+    EXPECT_EQ(look("window", sample), single);
+  }
+  EXPECT_NE(look("window", "1"), look("window", "3"));
+}
+
+// The thread of one layer or sample is not shown as another's.
+TEST(Planes, LeaveOutThreadsThatEndInADiscard) {
+  const Scratch scratch;
+  for (const auto& [scene, option] :
+       {std::pair("discarding-samples", "--sample"), std::pair("discarding-layers", "--layer")}) {
+    const Finished run = scratch.shadestep({"debug", "--draw", "1", "--at", "5", "--after", "--print",
+                                            "color", option, "1", "--csv", "values.csv", "--json"},
+                                           {binary("agent-target"), scene});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Json found = run.json();
+    EXPECT_EQ(found["check"]["outputs"], "identical");
+    EXPECT_EQ(found["threads"]["discarded"], 0) << scene;
+    EXPECT_NE(found["check"]["left_out"].dump().find("several layers or samples"), std::string::npos)
+        << found["check"];
+    EXPECT_EQ(found["values"]["color"]["min"][2], 1.0) << scene;
+    EXPECT_EQ(found["values"]["color"]["max"][2], 1.0) << scene;
+    const auto rows = readCsv(scratch.file("values.csv"));
+    ASSERT_GT(rows.size(), 100U);
+    for (const auto& row : rows) ASSERT_GE(std::stoi(row[0]), 16) << scene;
+  }
+}
+
+// Both sources of blending have values, though only one draw buffer can then be drawn to.
+TEST(DualSources, HaveValuesByAllPlans) {
+  const Scratch scratch;
+  for (const char* plan : {"single", "window", "recording"}) {
+    const Finished run = scratch.shadestep(
+        {"debug", "--draw", "1", "--at", "4:15", "--after", "--print", "weight", "--plan", plan, "--json"},
+        {binary("agent-target"), "dual-source"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.json()["check"]["outputs"], "identical") << plan;
+    EXPECT_EQ(run.json()["values"]["weight"]["max"], Json({0.5, 0.25, 2.0, 0.0})) << plan;
+    EXPECT_EQ(run.json()["values"]["weight"]["min"], Json({0.5, 0.25, 2.0, 0.0})) << plan;
+  }
+}
+
+TEST(EarlyTests, DecideBeforeTheShader) {
+  const Scratch scratch;
+  const auto look = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"debug",   "--draw", "1",     "--at",       "9",
+                                          "--print", "column", "--csv", "values.csv", "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Finished run = scratch.shadestep(arguments, {binary("agent-target"), "early-tests"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    // The depth buffer is compared too: a discarded thread has its own depth written to it, not the shader's.
+    EXPECT_EQ(run.json()["check"]["outputs"], "identical");
+    for (const auto& row : readCsv(scratch.file("values.csv"))) EXPECT_EQ(std::stoi(row[0]) % 2, 0);
+    return run.json()["threads"]["reached"].get<int>();
+  };
+  const int visible = look({});
+  EXPECT_GT(visible, 0);
+  // Half of the draw is behind the one before.
+  EXPECT_GT(look({"--depth-test", "off"}), visible);
+  EXPECT_EQ(look({"--plan", "window"}), visible);
+}
+
 }  // namespace
 }  // namespace shadestep::test

@@ -170,13 +170,52 @@ void main() {
                             return {s, double(x % 3)};
                           }};
 
+// ---- conditions that declare
+
+const ShaderCase kDeclaringConditions{"declaringConditions",
+                                      R"(#version 330 core
+out vec4 color;
+bool below(int a, int b) { return a < b; }
+void main() {
+  int x = int(gl_FragCoord.x), y = int(gl_FragCoord.y);
+  int sum = 0, rounds = 0;
+  for (int i = 0; bool go = i < x; ++i) {
+    if (i == 5) continue;
+    sum += go ? i : 1000;
+  }
+  for (; bool go = below(rounds, y); rounds++) {
+    bool inner = go && rounds > 3;
+    if (inner) sum += 10;
+    for (; bool again = sum % 3 != 0;) sum += again ? 1 : 1000;
+  }
+  int left = x;
+  while (bool more = left > 2) { left -= more ? 2 : 1000; if (left == 6) break; }
+  color = vec4(float(sum), float(rounds), float(left), 1.0); //LAST
+}
+)",
+                                      {"sum", "rounds", "left"},
+                                      [](int x, int y) -> std::vector<double> {
+                                        int sum = 0, rounds = 0;
+                                        for (int i = 0; i < x; ++i) sum += i == 5 ? 0 : i;
+                                        for (; rounds < y; rounds++) {
+                                          if (rounds > 3) sum += 10;
+                                          while (sum % 3 != 0) ++sum;
+                                        }
+                                        int left = x;
+                                        while (left > 2) {
+                                          left -= 2;
+                                          if (left == 6) break;
+                                        }
+                                        return {double(sum), double(rounds), double(left)};
+                                      }};
+
 class Shaders : public testing::TestWithParam<ShaderCase> {};
 
 TEST_P(Shaders, ValuesAreThoseOfTheSameComputationInCpp) {
   expectValuesOf(GetParam(), "shader-file");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Shaders, testing::Values(kNames, kRecords, kGuessed),
+INSTANTIATE_TEST_SUITE_P(All, Shaders, testing::Values(kNames, kRecords, kGuessed, kDeclaringConditions),
                          [](const auto& parameter) { return parameter.param.name; });
 
 }  // namespace

@@ -46,6 +46,12 @@ def run(command: list[str], timeout: float) -> tuple[int | None, str, str]:
         return None, "", "ran out of time"
 
 
+def number(cell: str) -> bool | int | float:
+    if cell in ("true", "false"):
+        return cell == "true"
+    return int(cell) if cell.lstrip("-").isdigit() else float(cell)
+
+
 def interpret(program: Program, record: set[tuple[int, int]]) -> tuple[Interpreter, list[Pixel]]:
     scopes.resolve(program)
     interpreter = Interpreter(program)
@@ -204,7 +210,7 @@ class Check:
         for thread in sorted(set(shown) & set(truth)):
             cells = shown[thread]
             right = [one for name in names for one in truth[thread][name][1]]
-            got = [cell == "true" if cell in ("true", "false") else float(cell) for cell in cells]
+            got = [number(cell) for cell in cells]
             if not compare.same(right, got):
                 problems.append(f"pixel {thread}: {', '.join(names)} = {cells}, must be {right}")
         self.outcome.values += len(shown) * len(names)

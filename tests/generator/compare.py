@@ -24,7 +24,7 @@ def same(truth: list, shown: list) -> bool:
 
 
 def too_wide(t: Type) -> bool:
-    return sum(2 if base == "double" else 1 for base in t.bases()) > WIDEST
+    return sum(2 if base == "double" or base.endswith("64") else 1 for base in t.bases()) > WIDEST
 
 
 def whole_declarations(shown: list[dict]) -> list[dict]:

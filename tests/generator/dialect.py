@@ -55,6 +55,20 @@ class Dialect:
         return self._from(400, 310)
 
     @property
+    def subroutines(self) -> bool:
+        return self._from(400)
+
+    @property
+    def fetches(self) -> bool:
+        """texelFetch, of integer textures too."""
+        return self._from(130, 300)
+
+    @property
+    def int64(self) -> bool:
+        """By GL_ARB_gpu_shader_int64, which Mesa has."""
+        return self._from(450)
+
+    @property
     def free_initializers(self) -> bool:
         """Globals initialized by more than constants."""
         return not self.es

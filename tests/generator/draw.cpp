@@ -1,12 +1,15 @@
-// Draws one triangle over a small target with the fragment shader in a file, in a context and with inputs that a
-// description names, and writes all that came of it to another file:
+// Draws one triangle over a small target with the fragment shader in a file, in a context and with inputs
+// that a description names, and writes all that came of it to another file:
 //
 //   generator-draw SCENE VERTEX_SHADER FRAGMENT_SHADER [RESULT]
 //
-// SCENE, a line each:   context core|compatibility|es   size W H   target float|int|uint (a colour target each)
+// SCENE, a line each:   context core|compatibility|es   size W H   target float|int|uint (a colour target
+// each)
 //   depth (a depth buffer)   out NAME LOCATION (before linking)   uniform NAME i|u|f COMPONENTS VALUE...
-//   block NAME VALUE... (ints)   storage INTS   image   counter
-// RESULT: a line each for every target (`target I WORDS...`, RGBA rows bottom up, hexadecimal), `depth WORDS...`,
+//   block NAME VALUE... (ints)   storage INTS   image   counter   texture NAME int|float (4 x 4,
+//   evaluate.py's texel()) subroutine UNIFORM FUNCTION
+// RESULT: a line each for every target (`target I WORDS...`, RGBA rows bottom up, hexadecimal), `depth
+// WORDS...`,
 //   `storage WORDS...`, `image WORDS...`, `counter WORD`.
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
@@ -52,6 +55,7 @@ struct Scene {
   std::vector<std::pair<std::string, unsigned>> outputs;
   std::vector<Values> uniforms;
   Values block;
+  std::vector<std::pair<std::string, std::string>> textures, subroutines;
 };
 
 Scene readScene(const char* name) {
@@ -74,6 +78,11 @@ Scene readScene(const char* name) {
       words >> text >> location;
       scene.outputs.emplace_back(text, location);
     }
+    if (what == "texture" || what == "subroutine") {
+      std::pair<std::string, std::string> entry;
+      words >> entry.first >> entry.second;
+      (what == "texture" ? scene.textures : scene.subroutines).push_back(entry);
+    }
     if (what == "uniform" || what == "block") {
       words >> values.name;
       if (what == "uniform") words >> values.kind >> values.components;
@@ -88,7 +97,8 @@ Scene readScene(const char* name) {
 void makeContext(const std::string& kind) {
   EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   const bool es = kind == "es";
-  std::vector<EGLint> version = {EGL_CONTEXT_MAJOR_VERSION, es ? 3 : 4, EGL_CONTEXT_MINOR_VERSION, es ? 2 : 5};
+  std::vector<EGLint> version = {EGL_CONTEXT_MAJOR_VERSION, es ? 3 : 4, EGL_CONTEXT_MINOR_VERSION,
+                                 es ? 2 : 5};
   if (!es) {
     version.insert(version.end(), {EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                    kind == "core" ? EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT
@@ -158,6 +168,51 @@ void setUniforms(const Scene& scene, GLuint program) {
   glUniformBlockBinding(program, index, 0);
 }
 
+void makeTextures(const Scene& scene, GLuint program) {
+  constexpr int kSide = 4;
+  GLint unit = 0;
+  for (const auto& [name, kind] : scene.textures) {
+    std::vector<GLint> ints;
+    std::vector<GLfloat> floats;
+    for (int i = 0; i < kSide * kSide * 4; ++i) {
+      const int value = 7 * (i / 4 % kSide) + 13 * (i / 4 / kSide) + 3 * (i % 4) - 20;
+      ints.push_back(value);
+      floats.push_back(static_cast<GLfloat>(value) / 4);
+    }
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, texture);
+    const bool whole = kind == "int";
+    glTexStorage2D(GL_TEXTURE_2D, 1, whole ? GL_RGBA32I : GL_RGBA32F, kSide, kSide);
+    if (whole) {
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSide, kSide, GL_RGBA_INTEGER, GL_INT, ints.data());
+    } else {
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSide, kSide, GL_RGBA, GL_FLOAT, floats.data());
+    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glUniform1i(glGetUniformLocation(program, name.c_str()), unit++);
+  }
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+}
+
+// As many locations as the linker left alive.
+void chooseSubroutines(const Scene& scene, GLuint program) {
+  GLint locations = 0;
+  if (!scene.subroutines.empty())
+    glGetProgramStageiv(program, GL_FRAGMENT_SHADER, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS, &locations);
+  if (locations <= 0) return;
+  std::vector<GLuint> indices(static_cast<std::size_t>(locations));
+  for (const auto& [uniform, function] : scene.subroutines) {
+    const GLint at = glGetSubroutineUniformLocation(program, GL_FRAGMENT_SHADER, uniform.c_str());
+    if (at >= 0)
+      indices[static_cast<std::size_t>(at)] =
+          glGetSubroutineIndex(program, GL_FRAGMENT_SHADER, function.c_str());
+  }
+  glUniformSubroutinesuiv(GL_FRAGMENT_SHADER, locations, indices.data());
+}
+
 GLuint zeroedBuffer(GLenum target, std::size_t words) {
   const std::vector<std::uint32_t> zeros(words);
   GLuint buffer = 0;
@@ -187,7 +242,10 @@ void makeTargets(const Scene& scene) {
     GLuint target = 0;
     glGenTextures(1, &target);
     glBindTexture(GL_TEXTURE_2D, target);
-    glTexStorage2D(GL_TEXTURE_2D, 1, kind == "float" ? GL_RGBA32F : kind == "int" ? GL_RGBA32I : GL_RGBA32UI,
+    glTexStorage2D(GL_TEXTURE_2D, 1,
+                   kind == "float" ? GL_RGBA32F
+                   : kind == "int" ? GL_RGBA32I
+                                   : GL_RGBA32UI,
                    scene.width, scene.height);
     const auto attachment = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + buffers.size());
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, target, 0);
@@ -204,7 +262,8 @@ void makeTargets(const Scene& scene) {
     glClear(GL_DEPTH_BUFFER_BIT);
   }
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) fail("the framebuffer is incomplete");
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    fail("the framebuffer is incomplete");
   for (std::size_t i = 0; i < scene.targets.size(); ++i) {
     const GLfloat floats[4] = {};
     const GLint ints[4] = {};
@@ -250,6 +309,8 @@ int main(int argc, char** argv) {
   makeTargets(scene);
   glUseProgram(program);
   setUniforms(scene, program);
+  makeTextures(scene, program);
+  chooseSubroutines(scene, program);
   const GLuint storage = scene.storage > 0 ? zeroedBuffer(GL_SHADER_STORAGE_BUFFER, scene.storage) : 0;
   const GLuint counter = scene.counter ? zeroedBuffer(GL_ATOMIC_COUNTER_BUFFER, 1) : 0;
   const GLuint image = scene.image ? makeImage(scene) : 0;
@@ -274,9 +335,13 @@ int main(int argc, char** argv) {
     glReadBuffer(static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i));
     writeWords(out, "target " + std::to_string(i),
                pixels(scene, kind == "float" ? GL_RGBA : GL_RGBA_INTEGER,
-                      kind == "float" ? GL_FLOAT : kind == "int" ? GL_INT : GL_UNSIGNED_INT, 4));
+                      kind == "float" ? GL_FLOAT
+                      : kind == "int" ? GL_INT
+                                      : GL_UNSIGNED_INT,
+                      4));
   }
-  if (scene.depth && scene.context != "es") writeWords(out, "depth", pixels(scene, GL_DEPTH_COMPONENT, GL_FLOAT, 1));
+  if (scene.depth && scene.context != "es")
+    writeWords(out, "depth", pixels(scene, GL_DEPTH_COMPONENT, GL_FLOAT, 1));
   if (storage != 0) writeWords(out, "storage", bufferWords(GL_SHADER_STORAGE_BUFFER, storage, scene.storage));
   if (counter != 0) writeWords(out, "counter", bufferWords(GL_ATOMIC_COUNTER_BUFFER, counter, 1));
   if (image != 0) {

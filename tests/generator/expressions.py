@@ -11,11 +11,12 @@ import random
 from dataclasses import dataclass, replace
 
 from dialect import Dialect
-from tree import BOOL, DOUBLE, E, FLOAT, INT, UINT, Function, Struct, Type, Variable, vec
+from tree import BOOL, DOUBLE, E, FLOAT, INT, INT64, UINT, UINT64, Function, Struct, Type, Variable, vec
 
 REST = (-64.0, 64.0)  # floats in variables, in quarters
 MANY = (-999, 999)  # integers where they do not wrap
 WIDE = 2 ** 24
+OPAQUE = ("buffer", "image", "counter", "texture")  # not used as plain variables
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,7 @@ class Expressions:
         if ctx.constant:
             return []
         return [v for v in self.visible().values() if isinstance(v, Variable) and v not in ctx.no_read and v.ready
-                and v.storage not in ("buffer", "image", "counter")]
+                and v.storage not in OPAQUE]
 
     def reaches(self, type_: Type, wanted: Type) -> bool:
         """Can an access path lead from a value of the one type to the other?"""
@@ -227,7 +228,7 @@ class Expressions:
         wanted = range_ if type_.base != "bool" else None
         found = [v for v in self.visible().values()
                  if isinstance(v, Variable) and v.writable and v.ready and v not in ctx.no_write and v not in ctx.no_read
-                 and v.storage not in ("buffer", "image", "counter") and self.reaches(v.type, type_)]
+                 and v.storage not in OPAQUE and self.reaches(v.type, type_)]
         self.random.shuffle(found)
         for v in found:
             e = self.walk_to(var(v), type_, replace(ctx.deeper(), no_read=ctx.no_read | {v},
@@ -301,6 +302,10 @@ class Expressions:
         base = type_.base
         if base == "bool":
             return lit(type_, self.random.random() < 0.5)
+        if base.endswith("64"):
+            wide = self.random.random() < 0.4
+            value = self.random.randint(0, 2 ** 62) if wide else self.random.randint(0, 99)
+            return lit(type_, -value if base == "int64" and self.random.random() < 0.4 else value)
         if base in ("float", "double"):
             low, high = range_ or (-8.0, 8.0)
             return lit(type_, max(low, min(high, self.random.randint(-32, 32) / self.random.choice([1, 2, 4]) +
@@ -349,8 +354,21 @@ class Expressions:
             return self.matrix(type_, ctx)
         if type_.is_vector() and self.random.random() < 0.35:
             return self.composed(type_, ctx)
-        return {"int": self.int_op, "uint": self.uint_op, "bool": self.bool_op, "float": self.float_op,
+        if type_.rows == 4 and type_.base in ("int", "float") and self.random.random() < 0.15:
+            fetched = self.fetch(type_, ctx)
+            if fetched is not None:
+                return fetched
+        return {"int": self.int_op, "uint": self.uint_op, "int64": self.wide_op, "uint64": self.wide_op, "bool": self.bool_op, "float": self.float_op,
                 "double": self.float_op}[type_.base](type_, ctx)
+
+    def fetch(self, type_: Type, ctx: Context) -> E | None:
+        found = [v for v in self.visible().values() if isinstance(v, Variable) and v.storage == "texture" and v.type == type_]
+        if not found or ctx.constant:
+            return None
+        x = self.index(4, ctx.deeper())
+        y = self.index(4, ctx.deeper().beside(x))
+        v = self.random.choice(found)
+        return E("fetch", type_, [x, y], v, v.range, 2 if type_.base == "float" else 0)
 
     def int_(self, ctx: Context) -> E:
         return self.expression(INT, ctx)
@@ -418,6 +436,16 @@ class Expressions:
                     return None
                 e = E("bin", e.type, [e, lit(e.type, 63)], "&", (0, 63))
             return E("ctor", to, [e], range_=(float(e.range[0]), float(e.range[1])))
+        if to.base.endswith("64"):
+            if e.type.base == "bool" or e.range is not None and e.range[0] >= 0 and e.type.base in ("int", "uint") or \
+                    to.base == "int64" and e.type.base == "int":
+                return E("ctor", to, [e])
+            return None
+        if e.type.base.endswith("64"):
+            if to.base not in ("int", "uint"):
+                return None
+            few = E("bin", e.type, [e, lit(e.type, 0xfffff)], "&")
+            return E("ctor", to, [few], range_=(0, 0xfffff))
         if to.base == "int":
             if e.type.base in ("float", "double"):
                 return E("ctor", to, [e], range_=(int(e.range[0]) - 1, int(e.range[1]) + 1))
@@ -483,7 +511,7 @@ class Expressions:
             if calls:
                 return self.call(self.random.choice(calls), ctx)
         types = [v.type for v in self.visible().values() if isinstance(v, Variable) and v.writable and v.ready
-                 and v.storage not in ("buffer", "image", "counter") and v not in ctx.no_write]
+                 and v.storage not in OPAQUE and v not in ctx.no_write]
         if not types:
             return None
         wanted = self.random.choice(types)
@@ -512,7 +540,7 @@ class Expressions:
         op = self.random.choice(["+", "-", "*", "/"] + (["%", "&", "|", "^", "<<", ">>", "~", "-u", "min", "max", "conv",
                                                         "sel"] if wrap else ["-u", "conv"]))
         if op == "conv" and type_.is_scalar():
-            return self.convert(self.expression(self.random.choice([FLOAT, BOOL] + ([UINT] if wrap else [])),
+            return self.convert(self.expression(self.random.choice([FLOAT, BOOL] + ([UINT] if wrap else []) + self.wides()),
                                                 ctx.deeper()), INT)
         if op == "sel":
             op = self.random.choice(["abs", "bitCount", "findMSB", "bitfieldExtract", "length"])
@@ -565,6 +593,27 @@ class Expressions:
             return None
         return E("bin", type_, [a, b], op, r)
 
+    def wides(self) -> list[Type]:
+        return [INT64, UINT64] if self.dialect.int64 else []
+
+    def wide_op(self, type_: Type, ctx: Context) -> E | None:
+        op = self.random.choice(["+", "-", "*", "/", "&", "|", "^", "<<", ">>", "~", "min", "max", "conv"])
+        if op == "conv":
+            if not type_.is_scalar():
+                return None
+            return self.convert(self.expression(self.random.choice([INT, UINT, BOOL]), ctx.deeper()), type_)
+        if op == "~":
+            return E("un", type_, [self.expression(type_, ctx.deeper())], "~")
+        if op in ("min", "max"):
+            return E("builtin", type_, list(self.operands(type_, ctx, False)), op)
+        if op in ("<<", ">>"):
+            return E("bin", type_, [self.expression(type_, ctx.deeper()), lit(INT, self.random.randint(0, 63))], op)
+        if op == "/":
+            a = self.expression(type_, ctx.deeper())
+            return E("bin", type_, [a, lit(type_.scalar(), self.random.randint(2, 1000))], op)
+        a, b = self.operands(type_, ctx)
+        return E("bin", type_, [a, b], op)
+
     def uint_op(self, type_: Type, ctx: Context) -> E | None:
         op = self.random.choice(["+", "-", "*", "/", "%", "&", "|", "^", "<<", ">>", "~", "min", "max", "conv"])
         if op == "conv":
@@ -593,7 +642,7 @@ class Expressions:
         r = self.random.random()
         if r < 0.4:
             base = self.random.choice([INT, INT, FLOAT] + ([UINT] if self.dialect.integers else []) +
-                                      ([DOUBLE] if self.dialect.doubles else []))
+                                      ([DOUBLE] if self.dialect.doubles else []) + self.wides())
             a, b = self.operands(base, ctx)
             return E("bin", BOOL, [a, b], self.random.choice(["<", ">", "<=", ">=", "==", "!="]))
         if r < 0.7:

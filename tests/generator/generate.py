@@ -5,8 +5,8 @@ from __future__ import annotations
 import random
 
 from dialect import DIALECTS, Dialect
-from expressions import MANY, REST, Context, Expressions, lit, var
-from tree import BOOL, DOUBLE, E, FLOAT, INT, UINT, VOID, Function, Program, S, Struct, Type, Variable, vec
+from expressions import MANY, OPAQUE, REST, Context, Expressions, lit, var
+from tree import BOOL, DOUBLE, E, FLOAT, INT, UINT, VOID, Function, Program, S, Struct, Subroutine, Type, Variable, vec
 
 NAMES = ["a", "b", "c", "d", "e", "i", "j", "k", "n", "v", "w", "sum", "value", "state", "color", "x1", "tmp", "result",
          "sd_x", "sd_end", "sd_words", "sd_at", "sd2_words", "sd_record", "record", "probe", "shadestep", "main_", "l",
@@ -66,7 +66,7 @@ class Generator(Expressions):
     def type(self, deep: int = 2) -> Type:
         r = self.random.random()
         bases = ["int", "int", "int", "float", "float", "bool"] + (["uint", "uint"] if self.dialect.integers else []) + (
-            ["double"] if self.dialect.doubles else [])
+            ["double"] if self.dialect.doubles else []) + (["int64", "uint64"] if self.dialect.int64 else [])
         base = self.random.choice(bases)
         if r < 0.55:
             return Type(base)
@@ -119,6 +119,8 @@ class Generator(Expressions):
             self.global_variable()
         for _ in range(r.randint(1, 3)):
             self.function()
+        if self.dialect.subroutines and r.random() < 0.5:
+            self.subroutine()
         if r.random() < 0.5:
             self.global_variable()
         self.main()
@@ -143,6 +145,11 @@ class Generator(Expressions):
             v = Variable("blocked", Type("int", 4, 1, (2,)), "uniform", (0, 7), False)
             v.value = [self.leaf_value("int") for _ in range(8)]
             self.add_global(v, "block")
+        if d.fetches:
+            for base in r.sample(["int", "float"], r.randint(0, 2)):
+                # texel() of evaluate.py
+                v = Variable(f"map_{base}", Type(base, 4), "texture", (-20, 49) if base == "int" else (-5.0, 12.25), False)
+                self.add_global(v, "texture")
         if d.memory and r.random() < 0.7:
             cells = Variable("cells", Type("int", 1, 1, (WIDTH * HEIGHT,)), "buffer", None)
             total = Variable("total", INT, "buffer", None)
@@ -232,6 +239,11 @@ class Generator(Expressions):
                             prototype=r.random() < 0.2)
         if t.dims and t.base in ("int", "uint"):
             function.range = None if self.dialect.integers else MANY
+        self.function_body(function)
+
+    def function_body(self, function: Function) -> None:
+        """The innermost scope holds its parameters, and is left."""
+        r, t, params = self.random, function.type, function.params
         self.current = function
         self.loops = self.switches = 0
         self.budget = r.randint(2, 7)
@@ -245,6 +257,36 @@ class Generator(Expressions):
         self.scopes.pop()
         function.body = body
         self.finish(function)
+
+    def subroutine(self) -> None:
+        """Two functions, one of which a uniform picks."""
+        r = self.random
+        t = r.choice([VOID, INT, FLOAT])
+        made: list[Function] = []
+        kinds = [(r.choice([INT, FLOAT]), r.choice(["", "in", "inout"])) for _ in range(r.randint(0, 2))]
+        ranges = [self.range_for(p) for p, _ in kinds]
+        for n in range(2):
+            self.scopes.append({})
+            params = []
+            for (p, qualifier), range_ in zip(kinds, ranges):
+                v = Variable(self.name(), p, "parameter", range_)
+                v.qualifier = qualifier
+                params.append(self.declare(v))
+            function = Function(f"way_{n}", t, params, range=made[0].range if made else self.range_for(t))
+            self.function_body(function)
+            made.append(function)
+        names = [Variable(f"p{i}", p, "parameter", range_) for i, ((p, _), range_) in enumerate(zip(kinds, ranges))]
+        for v, (_, qualifier) in zip(names, kinds):
+            v.qualifier = qualifier
+        call = Function("chosen", t, names, range=made[0].range, picked=r.choice(made))
+        call.reads, call.writes = made[0].reads | made[1].reads, made[0].writes | made[1].writes
+        call.discards = any(f.discards for f in made)
+        one = Subroutine("Way", call, made)
+        for f in (*made, call):
+            f.subroutine = one
+        self.program.declarations.append(one)
+        self.functions = [f for f in self.functions if f not in made] + [call]
+        self.scopes[0]["chosen"] = call
 
     def returned(self) -> E:
         f = self.current
@@ -377,7 +419,7 @@ class Generator(Expressions):
         r = self.random
         nested = len(self.scopes) < 7 and self.budget > 0
         ways = [(self.expression_statement, 10), (self.declaration, 0 if single else 7), (self.memory, 2),
-                (self.jump, 3), (lambda: [S("empty")], 0.4)]
+                (self.jump, 3), (lambda: [S("empty")], 0.4), (self.both, 0.5)]
         if nested:
             ways += [(self.if_, 5), (self.loop, 4), (lambda: [self.block()], 1)]
             if self.dialect.integers:
@@ -404,6 +446,13 @@ class Generator(Expressions):
             if second is not None:
                 e = E("comma", second.type, [e, second])
         return [S("expr", [e])]
+
+    def both(self) -> list[S]:
+        """Two assignments in a block that a macro makes: one step, as nothing is called."""
+        made = [self.effect(Context(2)) for _ in range(2)]
+        if any(e is None or any(one.kind == "call" for one in e.walk()) for e in made):
+            return []
+        return [S("macro", made)]
 
     def compound_float(self) -> list[S]:
         """x += e; x = clamp(x, ...);"""

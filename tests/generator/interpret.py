@@ -1,19 +1,16 @@
 """Runs a program for one pixel after another, by the rules of GLSL alone: the truth that the debugger must show.
 
-Everything is exact: integers wrap at 32 bits, and a float operation whose result would have to be rounded ends the run
+Everything is exact: integers wrap, and a float operation whose result would have to be rounded ends the run
 with Undefined, like everything else that GLSL leaves open (uninitialised reads, indices outside of bounds, ...).
 """
 
 from __future__ import annotations
 
-import struct
 from dataclasses import dataclass, field
 
-from tree import BOOL, E, FLOAT, Function, Program, S, Type, Variable
-
-
-class Undefined(Exception):
-    """The program does what GLSL does not define, or would need rounding, or runs for too long."""
+from arithmetic import Undefined
+from evaluate import Evaluator
+from tree import Function, Program, S, Variable
 
 
 class Discarded(Exception):
@@ -55,18 +52,7 @@ class Pixel:
     loops: dict  # loop statement -> list of iterations, one per time that it was entered
 
 
-def wrap(value: int, base: str) -> int:
-    value &= 0xffffffff
-    return value - 0x100000000 if base == "int" and value >= 0x80000000 else value
-
-
-def exact(value: float, base: str) -> float:
-    if base == "float" and struct.unpack("f", struct.pack("f", value))[0] != value:
-        raise Undefined("rounding")
-    return value + 0.0 if value == 0 else value
-
-
-class Interpreter:
+class Interpreter(Evaluator):
     MOST_STEPS = 1200
 
     def __init__(self, program: Program):
@@ -171,6 +157,12 @@ class Interpreter:
     def s_expr(self, s: S) -> None:
         self.announce(s)
         self.eval(s.exprs[0])
+        self.step("statement", s, s.visible_after)
+
+    def s_macro(self, s: S) -> None:
+        """Two in one: made by one use of a macro, it is one step."""
+        for e in s.exprs:
+            self.eval(e)
         self.step("statement", s, s.visible_after)
 
     def s_empty(self, s: S) -> None:
@@ -303,279 +295,6 @@ class Interpreter:
         self.step("jump", s, s.visible_after)
         raise Continued()
 
-    # ---- expressions --------------------------------------------------------------------------------------------
-
-    def eval(self, e: E) -> list:
-        value = self.expressions[e.kind](e)
-        return value
-
-    def place(self, e: E) -> tuple[list, list[int]]:
-        """Storage and the offsets of the components that a place means."""
-        if e.kind == "var":
-            store = self.env.get(e.data)
-            if store is None:
-                store = self.env[e.data] = [None] * e.type.words()
-            return store, list(range(len(store)))
-        if not e.args:
-            raise Undefined("a value is no place")  # what the reducer may try
-        store, at = self.place(e.args[0])
-        t = e.args[0].type
-        if e.kind == "index":
-            i = self.eval(e.args[1])[0]
-            if not 0 <= i < t.length():
-                raise Undefined("index")
-            n = t.element().words()
-            return store, at[i * n:(i + 1) * n]
-        if e.kind == "member":
-            first, n = member_at(t, e.data)
-            return store, at[first:first + n]
-        return store, [at[i] for i in swizzled(e.data)]
-
-    def e_lit(self, e: E) -> list:
-        return [e.data]
-
-    def e_var(self, e: E) -> list:
-        if e.data.name == "gl_FragCoord":
-            return self.coord
-        value = self.env.get(e.data)
-        if value is None:
-            raise Undefined("uninitialised")
-        if None in value:
-            # The parts of it that are read count; whole reads of such a value are not for comparison.
-            return value
-        return list(value)
-
-    def e_implicit(self, e: E) -> list:
-        return [exact(float(v), e.type.base) for v in self.defined(self.eval(e.args[0]))]
-
-    def defined(self, value: list) -> list:
-        if None in value:
-            raise Undefined("uninitialised")
-        return value
-
-    def e_index(self, e: E) -> list:
-        value, i, n = self.eval(e.args[0]), self.defined(self.eval(e.args[1]))[0], e.type.words()
-        if not 0 <= i < e.args[0].type.length():
-            raise Undefined("index")
-        return value[i * n:(i + 1) * n]
-
-    def e_member(self, e: E) -> list:
-        first, n = member_at(e.args[0].type, e.data)
-        return self.eval(e.args[0])[first:first + n]
-
-    def e_swizzle(self, e: E) -> list:
-        value = self.eval(e.args[0])
-        return [value[i] for i in swizzled(e.data)]
-
-    def e_length(self, e: E) -> list:
-        return [e.args[0].type.dims[0]]
-
-    def e_un(self, e: E) -> list:
-        value = self.defined(self.eval(e.args[0]))
-        base = e.type.base
-        if e.data == "!":
-            return [not v for v in value]
-        return [wrap(~v if e.data == "~" else -v, base) for v in value]
-
-    def e_incdec(self, e: E) -> list:
-        op, prefix = e.data
-        store, at = self.place(e.args[0])
-        old = self.defined([store[i] for i in at])
-        new = [wrap(v + (1 if op == "++" else -1), e.type.base) for v in old]
-        for i, v in zip(at, new):
-            store[i] = v
-        return new if prefix else old
-
-    def e_bin(self, e: E) -> list:
-        a, b = self.defined(self.eval(e.args[0])), self.defined(self.eval(e.args[1]))
-        return self.binary(e.data, a, b, e.args[0].type, e.args[1].type, e.type)
-
-    def binary(self, op: str, a: list, b: list, ta: Type, tb: Type, t: Type) -> list:
-        if op in ("==", "!="):
-            return [(a == b) == (op == "==")]
-        if op == "*" and (ta.is_matrix() or tb.is_matrix()) and not (ta.is_scalar() or tb.is_scalar()):
-            return self.product(a, b, ta, tb, t)
-        n = max(len(a), len(b))
-        a, b = (a * n if len(a) == 1 else a), (b * n if len(b) == 1 else b)
-        return [self.scalar(op, x, y, ta.base) for x, y in zip(a, b)]
-
-    def product(self, a: list, b: list, ta: Type, tb: Type, t: Type) -> list:
-        rows_a, cols_a = (ta.rows, ta.cols) if ta.is_matrix() else (1, ta.rows) if tb.is_matrix() else (ta.rows, 1)
-        rows_b, cols_b = (tb.rows, tb.cols) if tb.is_matrix() else (tb.rows, 1)
-        result = []
-        for c in range(cols_b):
-            for r in range(rows_a):
-                total = 0.0
-                for k in range(cols_a):
-                    total += exact(a[k * rows_a + r] * b[c * rows_b + k], t.base)
-                    exact(total, t.base)
-                result.append(exact(total, t.base))
-        return result
-
-    def scalar(self, op: str, x, y, base: str):
-        if op in ("<", ">", "<=", ">="):
-            return x < y if op == "<" else x > y if op == ">" else x <= y if op == "<=" else x >= y
-        if base in ("float", "double"):
-            if op == "/" and y == 0:
-                raise Undefined("division")
-            value = x + y if op == "+" else x - y if op == "-" else x * y if op == "*" else x / y
-            return exact(value, base)
-        if op in ("/", "%"):
-            if y == 0 or op == "%" and (x < 0 or y < 0):
-                raise Undefined("division")
-            quotient = abs(x) // abs(y) * (1 if (x < 0) == (y < 0) else -1)
-            return wrap(quotient if op == "/" else x - quotient * y, base)
-        if op in ("<<", ">>") and not 0 <= y < 32:
-            raise Undefined("shift")
-        value = {"+": lambda: x + y, "-": lambda: x - y, "*": lambda: x * y, "&": lambda: x & y, "|": lambda: x | y,
-                 "^": lambda: x ^ y, "<<": lambda: x << y, ">>": lambda: x >> y}[op]()
-        if self.program.version < 130 and not self.program.es or self.program.es and self.program.version < 300:
-            if abs(value) > 2 ** 24:
-                raise Undefined("overflow")
-        return wrap(value, base)
-
-    def e_logic(self, e: E) -> list:
-        a = self.defined(self.eval(e.args[0]))[0]
-        if e.data == "&&" and not a or e.data == "||" and a:
-            return [a]
-        b = self.defined(self.eval(e.args[1]))[0]
-        return [a != b if e.data == "^^" else b]
-
-    def e_cond(self, e: E) -> list:
-        return self.eval(e.args[1] if self.defined(self.eval(e.args[0]))[0] else e.args[2])
-
-    def e_comma(self, e: E) -> list:
-        self.eval(e.args[0])
-        return self.eval(e.args[1])
-
-    def e_assign(self, e: E) -> list:
-        store, at = self.place(e.args[0])
-        value = self.defined(list(self.eval(e.args[1])))
-        if e.data != "=":
-            old = self.defined([store[i] for i in at])
-            value = self.binary(e.data[:-1], old, value, e.args[0].type, e.args[1].type, e.type)
-        for i, v in zip(at, value):
-            store[i] = v
-        return [store[i] for i in at]
-
-    def e_call(self, e: E) -> list | None:
-        function = e.data
-        args, back = [], []
-        for i, (p, arg) in enumerate(zip(function.params, e.args)):
-            if function.out(i):
-                place = self.place(arg)
-                back.append((p, *place))
-                old = [place[0][k] for k in place[1]]
-                args.append(self.defined(old) if p.qualifier == "inout" else None)
-            else:
-                args.append(self.defined(list(self.eval(arg))))
-        result = self.call(function, args)
-        for p, store, at in back:
-            value = self.defined(self.env[p])
-            for i, v in zip(at, value):
-                store[i] = v
-        return list(result) if result is not None else None
-
-    def e_ctor(self, e: E) -> list:
-        t = e.type
-        if t.dims or t.struct:
-            return [v for arg in e.args for v in self.defined(self.eval(arg))]
-        values = [(v, arg.type.base) for arg in e.args for v in self.defined(list(self.eval(arg)))]
-        converted = [self.convert(v, base, t.base) for v, base in values]
-        if len(converted) == 1 and t.is_matrix():
-            return [converted[0] if c == r else 0.0 for c in range(t.cols) for r in range(t.rows)]
-        if len(converted) == 1:
-            return converted * t.words()
-        return converted[:t.words()]
-
-    def convert(self, v, base: str, to: str):
-        if to in ("float", "double"):
-            return exact(float(v), to)
-        if to == "bool":
-            return bool(v)
-        if base in ("float", "double"):
-            if not -2 ** 31 < v < 2 ** 31 or to == "uint" and v < 0:
-                raise Undefined("conversion")
-            return int(v)
-        return wrap(int(v), to)
-
-    def e_memory(self, e: E) -> list:
-        op, v = e.data
-        if op == "increment":
-            self.counted += 1
-            return [0]
-        value = self.defined(self.eval(e.args[1]))[0]
-        if op == "store":
-            self.picture[self.eval(e.args[0])[0]] = value
-            return []
-        store = self.memory[v]
-        old = store[0]
-        store[0] = wrap(old + value if op == "atomicAdd" else max(old, value) if op == "atomicMax" else old ^ value, "int")
-        return [old]
-
-    def e_builtin(self, e: E) -> list:
-        args = [self.defined(list(self.eval(arg))) for arg in e.args]
-        base, op = e.args[0].type.base, e.data
-        if op in ("any", "all"):
-            return [any(args[0]) if op == "any" else all(args[0])]
-        if op == "dot":
-            total = 0.0
-            for x, y in zip(*args):
-                total = exact(total + exact(x * y, base), base)
-            return [total]
-        if op == "transpose":
-            t = e.args[0].type
-            return [args[0][c * t.rows + r] for r in range(t.rows) for c in range(t.cols)]
-        n = max(len(a) for a in args)
-        if op == "bitfieldExtract":
-            offset, bits = args[1][0], args[2][0]
-            field_ = [(v >> offset) & ((1 << bits) - 1) for v in args[0]]
-            return [v - (1 << bits) if base == "int" and v >> (bits - 1) else v for v in field_]
-        args = [a * n if len(a) == 1 else a for a in args]
-        return [self.builtin(op, base, *values) for values in zip(*args)]
-
-    def builtin(self, op: str, base: str, x, y=None, z=None):
-        if op in ("min", "max"):
-            return min(x, y) if op == "min" else max(x, y)
-        if op == "clamp":
-            return min(max(x, y), z)
-        if op == "abs":
-            if x == -2 ** 31:
-                raise Undefined("abs")
-            return abs(x)
-        if op == "floor":
-            return float(x // 1)
-        if op == "sign":
-            return float((x > 0) - (x < 0))
-        if op == "step":
-            return 0.0 if y < x else 1.0
-        if op == "mix":
-            for one in (x * (1 - z), y * z, z * (y - x), x * (1 - z) + y * z, y - x):
-                exact(one, base)
-            return exact(x * (1 - z) + y * z, base)
-        if op == "matrixCompMult":
-            return exact(x * y, base)
-        if op == "bitCount":
-            return bin(x & 0xffffffff).count("1")
-        if op == "findMSB":
-            return (x if x >= 0 else ~x).bit_length() - 1
-        return {"lessThan": x < y if y is not None else None,
-                "greaterThanEqual": x >= y if y is not None else None, "equal": x == y, "notEqual": x != y}[op]
-
 
 def declared(s: S) -> list[Variable]:
     return [v for v, _ in s.data] if s.kind == "decl" else []
-
-
-def member_at(t: Type, name: str) -> tuple[int, int]:
-    first = 0
-    for member, type_ in t.struct.members:
-        if member == name:
-            return first, type_.words()
-        first += type_.words()
-    raise KeyError(name)
-
-
-def swizzled(names: str) -> list[int]:
-    return ["xrs".find(c) >= 0 and 0 or "ygt".find(c) >= 0 and 1 or "zbp".find(c) >= 0 and 2 or "waq".find(c) >= 0 and 3
-            or 0 for c in names]

@@ -32,6 +32,9 @@ def describe(program: Program, dialect: Dialect) -> str:
             lines.append(f"block Block {values}")
         if v.qualifier in ("image", "counter"):
             lines.append(v.qualifier)
+        if v.qualifier == "texture":
+            lines.append(f"texture {v.name} {v.type.base}")
+    lines += [f"subroutine {one.name} {one.call.picked.name}" for one in program.subroutines]
     cells = sum(v.type.words() for v in program.globals if v.qualifier == "storage")
     return "\n".join(lines + ([f"storage {cells}"] if cells else [])) + "\n"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tree import E, Function, Program, S, Variable
+from tree import E, Function, Program, S, Subroutine, Variable
 
 
 class Invalid(Exception):
@@ -24,6 +24,10 @@ class Resolver:
                 if one.initializer is not None:
                     self.expression(one.initializer)
                 self.scopes[0][one.name] = one
+            elif isinstance(one, Subroutine):
+                if not all(f in self.program.declarations for f in one.candidates):
+                    raise Invalid("a subroutine without its functions")
+                self.scopes[0][one.name] = [one.call]
             else:
                 self.function(one)
 
@@ -48,6 +52,9 @@ class Resolver:
             return
         for one in e.walk():
             if one.kind == "var" and not one.data.name.startswith("gl_"):
+                if self.visible().get(one.data.name) is not one.data:
+                    raise Invalid(f"{one.data.name} means something else")
+            elif one.kind == "fetch":
                 if self.visible().get(one.data.name) is not one.data:
                     raise Invalid(f"{one.data.name} means something else")
             elif one.kind == "call":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 from dialect import Dialect
-from tree import E, Function, Program, S, Struct, Type, Variable
+from tree import E, Function, Program, S, Subroutine, Type, Variable
 
 PRECEDENCE = {"*": 12, "/": 12, "%": 12, "+": 11, "-": 11, "<<": 10, ">>": 10, "<": 9, ">": 9, "<=": 9, ">=": 9, "==": 8,
               "!=": 8, "&": 7, "^": 6, "|": 5, "&&": 4, "^^": 3, "||": 2}
@@ -22,7 +22,7 @@ def number(e: E) -> list[str]:
     base, value = e.type.base, e.data
     if base == "bool":
         return ["true" if value else "false"]
-    text = {"int": str, "uint": lambda v: f"{v}u", "float": lambda v: repr(float(v)),
+    text = {"int": str, "uint": lambda v: f"{v}u", "int64": lambda v: f"{v}L", "uint64": lambda v: f"{v}UL", "float": lambda v: repr(float(v)),
             "double": lambda v: f"{float(v)!r}lf"}[base](value)
     return ["(", "-", text[1:], ")"] if text.startswith("-") else [text]
 
@@ -92,6 +92,9 @@ class Writer:
             return [e.type.name(), *dims, "(", *self.list_(e.args), ")"], 14
         if k == "memory":
             return self.memory(e), 14
+        if k == "fetch":
+            at = ["ivec2", "(", *self.list_(e.args), ")"]
+            return ["texelFetch", "(", e.data.name, ",", *at, ",", "0", ")"], 14
         raise ValueError(k)
 
     def memory(self, e: E) -> list[str]:
@@ -124,6 +127,12 @@ class Writer:
     def statement(self, s: S) -> list:
         text: list = [Mark(s)]
         k = s.kind
+        if k == "macro":
+            return text + ["BOTH", "(", *self.kid(s.exprs[0], 1), ",", *self.kid(s.exprs[1], 1), ")"]
+        if self.macros and self.random.random() < 0.25:
+            made = self.by_macro(s)
+            if made:
+                return text + made
         if k == "expr":
             return text + self.expression(s.exprs[0])[0] + [";"]
         if k == "empty":
@@ -158,6 +167,21 @@ class Writer:
             return text + ["return", *(self.kid(s.exprs[0], 0) if s.exprs else []), ";"]
         return text + [k, ";"]
 
+    def by_macro(self, s: S) -> list:
+        """The statement, or its head, made by a macro."""
+        if s.kind == "expr":
+            return ["DO", "(", *self.kid(s.exprs[0], 1), ")", ";"]
+        if s.kind == "decl" and len(s.data) == 1 and s.exprs[0] is not None and not s.data[0][0].type.dims:
+            v = s.data[0][0]
+            return ["LET", "(", v.type.name(), ",", v.name, ",", *self.kid(s.exprs[0], 1), ")", ";"]
+        if s.kind == "if" and len(s.body) == 1:
+            return ["WHEN", "(", *self.kid(s.exprs[0], 1), ")"] + self.statement(s.body[0])
+        if s.kind == "while" and not s.data:
+            return ["AS_LONG_AS", "(", *self.kid(s.exprs[0], 1), ")"] + self.statement(s.body[0])
+        if s.kind == "return" and s.exprs:
+            return ["GIVE", "(", *self.kid(s.exprs[0], 1), ")"]
+        return []
+
     # ---- the whole ----------------------------------------------------------------------------------------------
 
     def header(self) -> list[str]:
@@ -165,6 +189,11 @@ class Writer:
         if self.macros:
             lines += ["#define ONE 1", "#define ADD(a, b) ((a) + \\", "                   (b))"] if self.dialect.version >= 420 \
                 else ["#define ONE 1", "#define ADD(a, b) ((a) + (b))"]
+            lines += ["#define DO(e) e", "#define LET(t, name, e) t name = e", "#define WHEN(c) if (c)",
+                      "#define AS_LONG_AS(c) while (c)", "#define GIVE(e) return e;"]
+        lines += ["#define BOTH(a, b) { a; b; }"]
+        if self.dialect.int64:
+            lines.insert(1, "#extension GL_ARB_gpu_shader_int64 : enable")
         if self.dialect.es:
             lines += ["precision highp float;", "precision highp int;"]
         return lines
@@ -174,6 +203,9 @@ class Writer:
         highp = ["highp"] if self.dialect.es else []
         if q == "storage":
             return []  # with the others, in one block
+        if q == "texture":
+            prefix = "i" if v.type.base == "int" else ""
+            return ["uniform", *highp, prefix + "sampler2D", v.name, ";"]
         if q == "image":
             return ["layout", "(", "r32i", ",", "binding", "=", "0", ")", "writeonly", "uniform", *highp, "iimage2D", v.name,
                     ";"]
@@ -193,7 +225,8 @@ class Writer:
             params += p.qualifier.split() + self.qualified(p.type) + ([p.name] if p.name else [])
             params += [t for n in p.type.dims for t in ("[", str(n), "]")]
         dims = [t for n in f.type.dims for t in ("[", str(n), "]")]
-        return [f.type.name(), *dims, *([Mark(f)] if mark else []), f.name, "(", *params, ")"]
+        of = ["subroutine", "(", f.subroutine.type_name, ")"] if f.subroutine and f.subroutine.call is not f else []
+        return [*of, f.type.name(), *dims, *([Mark(f)] if mark else []), f.name, "(", *params, ")"]
 
     def write(self) -> str:
         tokens: list = []
@@ -208,6 +241,11 @@ class Writer:
             for v in cells:
                 tokens += [v.type.name(), v.name, *(t for n in v.type.dims for t in ("[", str(n), "]")), ";"]
             tokens += ["}", ";"]
+        for one in self.program.subroutines:
+            f = one.call
+            params = [t for i, p in enumerate(f.params)
+                      for t in [*([","] if i else []), *p.qualifier.split(), p.type.name(), p.name]]
+            tokens += ["subroutine", f.type.name(), one.type_name, "(", *params, ")", ";"]
         for f in self.program.functions:
             if f.prototype:
                 tokens += self.function(f, False) + [";"]
@@ -216,6 +254,8 @@ class Writer:
             if isinstance(x, Variable):
                 tokens += self.global_(x, location)
                 location += x.qualifier == "out"
+            elif isinstance(x, Subroutine):
+                tokens += ["subroutine", "uniform", x.type_name, x.name, ";"]
             else:
                 tokens += self.function(x, True) + ["{"]
                 for one in x.body:

@@ -18,7 +18,7 @@ class Struct:
 
 @dataclass(frozen=True)
 class Type:
-    base: str  # int uint bool float double void struct
+    base: str  # int uint int64 uint64 bool float double void struct
     rows: int = 1
     cols: int = 1  # more than 1: a matrix
     dims: tuple[int, ...] = ()  # outermost first
@@ -28,11 +28,13 @@ class Type:
         """Without the array's dimensions."""
         if self.struct:
             return self.struct.name
-        prefix = {"int": "i", "uint": "u", "bool": "b", "double": "d", "float": ""}.get(self.base, "")
+        prefix = {"int": "i", "uint": "u", "int64": "i64", "uint64": "u64", "bool": "b", "double": "d", "float": ""}.get(
+            self.base, "")
         if self.cols > 1:
             size = f"{self.cols}" if self.cols == self.rows else f"{self.cols}x{self.rows}"
             return f"{prefix}mat{size}"
-        return f"{prefix}vec{self.rows}" if self.rows > 1 else self.base
+        scalar = self.base + "_t" if self.base.endswith("64") else self.base
+        return f"{prefix}vec{self.rows}" if self.rows > 1 else scalar
 
     def spelled(self) -> str:
         return self.name() + "".join(f"[{n}]" for n in self.dims)
@@ -76,6 +78,7 @@ class Type:
 
 
 INT, UINT, BOOL, FLOAT, DOUBLE, VOID = (Type(b) for b in ("int", "uint", "bool", "float", "double", "void"))
+INT64, UINT64 = Type("int64"), Type("uint64")
 
 
 def vec(base: str, n: int) -> Type:
@@ -143,12 +146,27 @@ class Function:
     writes: frozenset = frozenset()
     discards: bool = False
     prototype: bool = False
+    subroutine: "Subroutine | None" = None  # whose candidate it is
+    picked: "Function | None" = None  # of what a subroutine uniform calls: the candidate that runs
     line: int = 0
     column: int = 0
     visible: dict = field(default_factory=dict)
 
     def out(self, i: int) -> bool:
         return "out" in self.params[i].qualifier
+
+
+@dataclass(eq=False)
+class Subroutine:
+    """A subroutine uniform with its type."""
+
+    type_name: str
+    call: Function  # as it is called: its name is the uniform's
+    candidates: list[Function]
+
+    @property
+    def name(self) -> str:
+        return self.call.name
 
 
 @dataclass
@@ -158,7 +176,7 @@ class Program:
     width: int
     height: int
     structs: list[Struct] = field(default_factory=list)
-    # Variable (outputs and uniforms too) and Function, in the order of the text; the last is main
+    # Variable (outputs and uniforms too), Function and Subroutine, in the order of the text; the last is main
     declarations: list = field(default_factory=list)
     outputs: list[Variable] = field(default_factory=list)  # of the fragment, by location; built-in ones too
     layout_seed: int = 0  # 0: plain layout
@@ -166,6 +184,10 @@ class Program:
     @property
     def globals(self) -> list[Variable]:
         return [one for one in self.declarations if isinstance(one, Variable)]
+
+    @property
+    def subroutines(self) -> list[Subroutine]:
+        return [one for one in self.declarations if isinstance(one, Subroutine)]
 
     @property
     def functions(self) -> list[Function]:

@@ -222,6 +222,55 @@ void layeredArray() {
   readTexture(GL_TEXTURE_2D_ARRAY, color, kLayers);
 }
 
+// Every thread left of column 16 ends in a discard, of every layer or sample.
+constexpr const char* kDiscardingSamples =
+    "#version 400 compatibility\n"
+    "uniform float mine;\n"
+    "out vec4 color;\n"
+    "void main() {\n"
+    "  color = vec4(gl_FragCoord.xy, float(gl_SampleID), mine);\n"
+    "  if (gl_FragCoord.x < 16.0) discard;\n"
+    "}\n";
+constexpr const char* kDiscardingLayers =
+    "#version 430 compatibility\n"
+    "uniform float mine;\n"
+    "out vec4 color;\n"
+    "void main() {\n"
+    "  color = vec4(gl_FragCoord.xy, float(gl_Layer), mine);\n"
+    "  if (gl_FragCoord.x < 16.0) discard;\n"
+    "}\n";
+
+void discardingSamples() {
+  newFramebuffer();
+  const GLuint color = multisampledTexture(GL_TEXTURE_2D_MULTISAMPLE, GL_RGBA32F);
+  drawTwice(use(kDiscardingSamples));
+  readSamples(GL_TEXTURE_2D_MULTISAMPLE, color, 1);
+}
+
+void discardingLayers() {
+  newFramebuffer();
+  const GLuint color = layeredTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, GL_COLOR_ATTACHMENT0, kLayers);
+  drawTwice(use(kDiscardingLayers, kLayersGeometry));
+  readTexture(GL_TEXTURE_2D_ARRAY, color, kLayers);
+}
+
+// Tests come before the shader: what it writes as depth counts for nothing, a discarded fragment's own depth
+// is written all the same, and hidden fragments do not run.
+void earlyTests() {
+  newFramebuffer();
+  layeredTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT, kLayers);
+  const GLuint color = layeredTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, GL_COLOR_ATTACHMENT0, kLayers);
+  drawTwice(use(
+      "#version 420 compatibility\nlayout(early_fragment_tests) in;\nuniform float mine;\nout vec4 color;\n"
+      "void main() {\n"
+      "  float column = floor(gl_FragCoord.x);\n"
+      "  gl_FragDepth = 1.0;\n"
+      "  if (mod(column, 2.0) == 1.0) discard;\n"
+      "  color = vec4(gl_FragCoord.xy, column, mine);\n"
+      "}\n"));
+  readTexture(GL_TEXTURE_2D_ARRAY, color, kLayers);
+}
+
 void layeredCube() {
   newFramebuffer();
   const GLuint color = layeredTexture(GL_TEXTURE_CUBE_MAP, GL_RGBA32F, GL_COLOR_ATTACHMENT0, 6);
@@ -402,6 +451,9 @@ const std::map<std::string, Scene>& scenes() {
       {"sample-shading", sampleShading},
       {"multisampled-renderbuffers", multisampledRenderbuffers},
       {"layered-array", layeredArray},
+      {"discarding-samples", discardingSamples},
+      {"discarding-layers", discardingLayers},
+      {"early-tests", earlyTests},
       {"layered-cube", layeredCube},
       {"layered-volume", layeredVolume},
       {"layered-samples", layeredSamples},
