@@ -205,5 +205,27 @@ void main() {
   expectAllRight(verified);
 }
 
+// The declaration of a subroutine type was taken for a function that nobody defines, and got a definition.
+TEST_F(Dialects, SubroutineTypesAreNoFunctions) {
+  const std::string shader =
+      "subroutine float Way(int n, inout float x);\n"
+      "subroutine(Way) float twice(int n, inout float x) { x += 1.0; return x * 2.0 + float(n); }\n"
+      "subroutine(Way) float half_of(int n, inout float x) { x += 2.0; return x * 0.5 - float(n); }\n"
+      "subroutine uniform Way chosen;\n"
+      "layout(location = 0) out vec4 o;\n"
+      "void main() {\n  float y = gl_FragCoord.y - 0.5;\n  float z = chosen(3, y);\n  o = vec4(y, z, 0.0, "
+      "1.0);\n}\n";
+  const std::string scene = "target float\nsubroutine chosen half_of\n";
+  const Finished found = run({"debug", "--at", "11", "--print", "y,z", "--csv", "values.csv", "--json"},
+                             "450 core", shader, scene);
+  ASSERT_EQ(found.status, 0) << found.err;
+  ASSERT_EQ(rows("values.csv").size(), 30u);
+  for (const auto& row : rows("values.csv")) {
+    EXPECT_EQ(std::stod(row.at(2)), std::stod(row.at(1)) + 2);
+    EXPECT_EQ(std::stod(row.at(3)), (std::stod(row.at(1)) + 2) / 2 - 3);
+  }
+  expectAllRight(run({"verify", "--json"}, "450 core", shader, scene));
+}
+
 }  // namespace
 }  // namespace shadestep::test
