@@ -166,15 +166,9 @@ struct FieldValues {
               "the draw does not repeat exactly, so its values cannot be trusted");
 }
 
-void requireSameThreads(const ThreadValues& known, const ThreadWords& threads,
-                        const instrumenter::AttachmentLayout& layout) {
-  const std::size_t count = known.marks.size();
-  if (static_cast<std::size_t>(threads.width) * static_cast<std::size_t>(threads.height) != count) disagree();
-  for (std::size_t i = 0; i < std::min(known.identity.size(), layout.identity.size()); ++i) {
-    const WatchedValues now =
-        valuesOf(threads, layout, layout.identity[i], [&](std::size_t p) { return known.marks[p] != 0; });
-    if (now.words != known.identity[i].words) disagree();
-  }
+void requireSameThreads(const std::vector<WatchedValues>& known, const std::vector<WatchedValues>& now) {
+  for (std::size_t i = 0; i < std::min(known.size(), now.size()); ++i)
+    if (now[i].words != known[i].words) disagree();
 }
 
 }  // namespace
@@ -189,16 +183,14 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
     result.check = check;
   } else {
     result.check.merge(check);
-    requireSameThreads(result, threads, layout);
+    if (threads.count() != result.marks.size()) disagree();
   }
   FieldValues fields(layout, layout.fields, threads.count());
-  FieldValues identity(layout, first ? layout.identity : std::vector<instrumenter::Field>(), threads.count());
+  FieldValues identity(layout, layout.identity, threads.count());
   std::vector<std::uint32_t> words(static_cast<std::size_t>(threads.words()));
   for (std::size_t p = 0; p < threads.count(); ++p) {
     const auto mark = static_cast<std::uint8_t>(instrumenter::decodeMark(layout, threads.head(p)));
-    if (!first && mark != result.marks[p]) {
-      disagree();
-    }
+    if (!first && mark != result.marks[p]) disagree();
     result.marks[p] = mark;
     if (mark == 0) continue;
     if (result.reachedAt(p) || !identity.values.empty()) threads.read(p, words.data());
@@ -209,7 +201,10 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
     result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
     result.discarded += (mark & instrumenter::kDiscarded) != 0 ? 1 : 0;
   }
-  if (first) result.identity = std::move(identity.values);
+  if (first)
+    result.identity = std::move(identity.values);
+  else
+    requireSameThreads(result.identity, identity.values);
   std::move(fields.values.begin(), fields.values.end(), std::back_inserter(result.values));
 }
 
