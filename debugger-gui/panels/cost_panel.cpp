@@ -163,9 +163,14 @@ void CostPanel::saveAll() {
   connect(dialog, &QFileDialog::fileSelected, this,
           [this, view = debugger_.profile()](const QString& folder) {
             const auto in = [&](const char* name) { return QDir(folder).filePath(name).toStdString(); };
-            const profiler::ProfileFiles files{in("heat.png"),      in("heat.exr"),    in("height.png"),
-                                               in("profile.json"),  in("report.html"), in("difference.png"),
-                                               in("difference.exr")};
+            profiler::ProfileFiles files;
+            files.heat_png = in("heat.png");
+            files.heat_exr = in("heat.exr");
+            files.height_png = in("height.png");
+            files.profile_json = in("profile.json");
+            files.report_html = in("report.html");
+            files.difference_png = in("difference.png");
+            files.difference_exr = in("difference.exr");
             try {
               profiler::writeProfile(view->profile, files, {view->subject, view->source},
                                      view->comparison ? &*view->comparison : nullptr);
