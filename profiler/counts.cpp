@@ -107,6 +107,19 @@ Counts countAll(session::Session& session, const CostMap& covered, session::Chec
   return counter.take();
 }
 
+std::vector<std::vector<std::size_t>> groupsOf(const CostMap& map, Grain grain) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (int y0 = 0; y0 < map.height; y0 += grain.height)
+    for (int x0 = 0; x0 < map.width; x0 += grain.width) {
+      std::vector<std::size_t> pixels;
+      for (int y = y0; y < std::min(y0 + grain.height, map.height); ++y)
+        for (int x = x0; x < std::min(x0 + grain.width, map.width); ++x)
+          if (map.state[map.index(x, y)] != PixelState::none) pixels.push_back(map.index(x, y));
+      if (!pixels.empty()) groups.push_back(std::move(pixels));
+    }
+  return groups;
+}
+
 double activeShare(const std::vector<std::uint32_t>& plane, const CostMap& covered, Grain grain) {
   double done = 0;
   double room = 0;

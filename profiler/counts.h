@@ -35,6 +35,9 @@ struct Grain {
   bool operator==(const Grain&) const = default;
 };
 
+// The covered pixels of each group that has any.
+std::vector<std::vector<std::size_t>> groupsOf(const CostMap&, Grain);
+
 // How much of the device is in use while a counted thing runs: threads that do it, over threads of all groups
 // that have to run through it because one of theirs does. 1 = no divergence; 0 if nothing ran.
 double activeShare(const std::vector<std::uint32_t>& plane, const CostMap& covered, Grain);

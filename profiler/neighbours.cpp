@@ -47,19 +47,38 @@ NeighbourCost neighbourCost(const Measured& clock, const Measured& isolate,
 
 std::vector<std::uint8_t> divergingPixels(const Counts& counts, const CostMap& covered, Grain grain) {
   std::vector<std::uint8_t> diverging(covered.state.size());
-  for (int y0 = 0; y0 < covered.height; y0 += grain.height)
-    for (int x0 = 0; x0 < covered.width; x0 += grain.width) {
-      std::vector<std::size_t> pixels;
-      for (int y = y0; y < std::min(y0 + grain.height, covered.height); ++y)
-        for (int x = x0; x < std::min(x0 + grain.width, covered.width); ++x)
-          if (covered.state[covered.index(x, y)] != PixelState::none) pixels.push_back(covered.index(x, y));
-      const bool differ = std::any_of(counts.planes.begin(), counts.planes.end(), [&](const auto& plane) {
-        return std::any_of(pixels.begin(), pixels.end(),
-                           [&](std::size_t pixel) { return plane[pixel] != plane[pixels.front()]; });
-      });
-      for (const std::size_t pixel : pixels) diverging[pixel] = differ ? 1 : 0;
-    }
+  for (const std::vector<std::size_t>& pixels : groupsOf(covered, grain)) {
+    const bool differ = std::any_of(counts.planes.begin(), counts.planes.end(), [&](const auto& plane) {
+      return std::any_of(pixels.begin(), pixels.end(),
+                         [&](std::size_t pixel) { return plane[pixel] != plane[pixels.front()]; });
+    });
+    for (const std::size_t pixel : pixels) diverging[pixel] = differ ? 1 : 0;
+  }
   return diverging;
+}
+
+RankAgreement groupRankAgreement(const CostMap& a, const CostMap& b,
+                                 const std::vector<std::uint8_t>& diverging, Grain grain) {
+  std::vector<double> of_a;
+  std::vector<double> of_b;
+  if (a.width == b.width && a.height == b.height && diverging.size() == a.cost.size())
+    for (const std::vector<std::size_t>& pixels : groupsOf(a, grain)) {
+      double sum_a = 0;
+      double sum_b = 0;
+      int both = 0;
+      for (const std::size_t pixel : pixels) {
+        if (diverging[pixel] != 0 || a.state[pixel] != PixelState::measured ||
+            b.state[pixel] != PixelState::measured)
+          continue;
+        sum_a += a.cost[pixel];
+        sum_b += b.cost[pixel];
+        ++both;
+      }
+      if (both == 0) continue;
+      of_a.push_back(sum_a / both);
+      of_b.push_back(sum_b / both);
+    }
+  return {spearman(of_a, of_b), of_a.size()};
 }
 
 }  // namespace shadestep::profiler

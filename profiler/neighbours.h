@@ -34,4 +34,9 @@ NeighbourCost neighbourCost(const Measured& clock, const Measured& isolate,
 // Per pixel: 1 where the covered threads of its group (of that size) differ in any of the planes.
 std::vector<std::uint8_t> divergingPixels(const Counts&, const CostMap& covered, Grain);
 
+// Of what is measured per thread and what per group, ranks can agree only where the group's threads do the
+// same: a mean for each such group, over its pixels that are measured in both maps. `pixels`: groups.
+RankAgreement groupRankAgreement(const CostMap&, const CostMap&, const std::vector<std::uint8_t>& diverging,
+                                 Grain);
+
 }  // namespace shadestep::profiler

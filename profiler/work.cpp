@@ -42,22 +42,6 @@ double operations(const frontend::Shader& shader, frontend::TokenRange range) {
   return sum;
 }
 
-// Pixels or groups of pixels of which each gives one row of the fit: the threads of a group take as long as
-// what any of them does.
-std::vector<std::vector<std::size_t>> rowsOf(const Profile& profile) {
-  const CostMap& map = profile.map;
-  std::vector<std::vector<std::size_t>> rows;
-  for (int y0 = 0; y0 < map.height; y0 += profile.grain.height)
-    for (int x0 = 0; x0 < map.width; x0 += profile.grain.width) {
-      std::vector<std::size_t> pixels;
-      for (int y = y0; y < std::min(y0 + profile.grain.height, map.height); ++y)
-        for (int x = x0; x < std::min(x0 + profile.grain.width, map.width); ++x)
-          if (map.state[map.index(x, y)] != PixelState::none) pixels.push_back(map.index(x, y));
-      if (!pixels.empty()) rows.push_back(std::move(pixels));
-    }
-  return rows;
-}
-
 // What is counted for a row: the most of any of its threads where a group runs in step.
 double counted(const Plane& plane, const std::vector<std::size_t>& row) {
   std::uint32_t most = 0;
@@ -78,7 +62,8 @@ void fitLines(const Counts& counts, const std::vector<double>& weight, Profile& 
     if (site.what.kind == Counted::Kind::runs)
       groups[site.plane].operations += weight[static_cast<std::size_t>(site.what.id)];
 
-  const std::vector<std::vector<std::size_t>> rows = rowsOf(profile);
+  // Each group gives one row of the fit: its threads take as long as what any of them does.
+  const std::vector<std::vector<std::size_t>> rows = groupsOf(profile.map, profile.grain);
   std::vector<const std::vector<std::size_t>*> fitted;
   for (const auto& row : rows)
     if (profile.map.state[row.front()] == PixelState::measured) fitted.push_back(&row);

@@ -41,8 +41,9 @@ TEST_F(Methods, cover_the_same_pixels_and_leave_the_outputs_alone) {
   options.lines = false;
   options.budget = 2;
   const Profile count = profileCount(session(), options);
-  const Profile clock = profileClock(session(), options);
   const Profile isolate = profileIsolate(session(), options);
+  options.lines = true;  // which groups diverge is counted
+  const Profile clock = profileClock(session(), options);
   for (const auto& [a, b] :
        {std::pair{&count, &clock}, std::pair{&count, &isolate}, std::pair{&clock, &isolate}}) {
     const std::string names = std::string(methodName(a->method)) + "_" + methodName(b->method);
@@ -50,6 +51,9 @@ TEST_F(Methods, cover_the_same_pixels_and_leave_the_outputs_alone) {
     RecordProperty("rho_" + names, std::to_string(agreement.rho));
     std::printf("Spearman's rho of %s: %.3f at %zu pixels\n", names.c_str(), agreement.rho, agreement.pixels);
     EXPECT_GT(agreement.pixels, 0U) << names;
+    const RankAgreement groups = groupRankAgreement(a->map, b->map, clock.diverging, clock.grain);
+    std::printf("  in %zu groups of %d x %d without divergence: %.3f\n", groups.pixels, clock.grain.width,
+                clock.grain.height, groups.rho);
   }
   for (const Profile* profile : {&count, &clock, &isolate}) {
     EXPECT_TRUE(profile->check.identical()) << methodName(profile->method) << ": " << profile->check.reason;

@@ -72,5 +72,15 @@ TEST(DivergingPixels, are_those_of_groups_whose_threads_differ_in_anything) {
   EXPECT_EQ(divergingPixels(counts, covered, {1, 1}), std::vector<std::uint8_t>(8));
 }
 
+TEST(GroupRankAgreement, compares_groups_whose_threads_do_the_same) {
+  // Per thread on the left, per group on the right: the third group diverges, and its order is another.
+  const CostMap alone = filled(8, 1, {1, 2, 3, 5, 9, 1, 7, 8});
+  const CostMap in_place = filled(8, 1, {10, 10, 20, 20, 5, 5, 30, 30});
+  const RankAgreement agreement = groupRankAgreement(alone, in_place, {0, 0, 0, 0, 1, 1, 0, 0}, {2, 1});
+  EXPECT_DOUBLE_EQ(agreement.rho, 1);
+  EXPECT_EQ(agreement.pixels, 3U);
+  EXPECT_LT(groupRankAgreement(alone, in_place, std::vector<std::uint8_t>(8), {2, 1}).rho, 1);
+}
+
 }  // namespace
 }  // namespace shadestep::profiler
