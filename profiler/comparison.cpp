@@ -58,6 +58,7 @@ double noiseOf(double total_error, double spread) {
 void comparePixels(const Earlier& earlier, const Profile& profile, Comparison& result) {
   result.difference.resize(profile.map.cost.size());
   result.significant.resize(profile.map.cost.size());
+  const double of_scale = std::hypot(profile.yardstick_noise, earlier.yardstick_noise);
   for (std::size_t i = 0; i < profile.map.cost.size(); ++i) {
     if (profile.map.state[i] == PixelState::none || earlier.map.state[i] == PixelState::none) continue;
     ++result.compared;
@@ -66,7 +67,7 @@ void comparePixels(const Earlier& earlier, const Profile& profile, Comparison& r
     result.now += profile.map.cost[i];
     result.difference[i] = profile.map.cost[i] - before;
     const double unsure = std::hypot(uncertaintyAt(profile.uncertainty, i),
-                                     uncertaintyAt(earlier.uncertainty, i) * result.scale);
+                                     uncertaintyAt(earlier.uncertainty, i) * result.scale, before * of_scale);
     if (std::abs(result.difference[i]) <= unsure) continue;
     result.significant[i] = 1;
     (result.difference[i] < 0 ? result.cheaper : result.dearer) += 1;
@@ -114,6 +115,7 @@ Earlier readEarlier(const std::string& path) {
   earlier.method = document["method"].get<std::string>();
   earlier.unit = document.value("unit", "");
   earlier.yardstick = numberIn(document, "yardstick");
+  earlier.yardstick_noise = numberIn(document, "yardstick_noise");
   earlier.spread = numberIn(document, "spread");
   if (document.contains("reconstruction") && document["reconstruction"].is_object())
     earlier.total_error = numberIn(document["reconstruction"], "total_error");
@@ -192,8 +194,9 @@ Comparison compare(const Earlier& earlier, const Profile& profile, const std::ve
   comparePixels(earlier, profile, result);
   if (result.compared == 0) refuse("'" + earlier.file + "' has no pixel in common with this run");
   const double total_error = profile.reconstruction ? profile.reconstruction->total_error : 0;
-  result.noise =
+  const double of_runs =
       std::hypot(noiseOf(total_error, profile.spread), noiseOf(earlier.total_error, earlier.spread));
+  result.noise = std::hypot(of_runs, profile.yardstick_noise, earlier.yardstick_noise);
   result.change = result.before > 0 ? (result.now - result.before) / result.before : 0;
   if (std::abs(result.change) > result.noise)
     result.verdict = result.change < 0 ? Verdict::cheaper : Verdict::dearer;

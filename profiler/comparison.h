@@ -15,7 +15,7 @@ struct Earlier {
   std::string file, method, unit;
   CostMap map;
   std::vector<double> uncertainty;  // per pixel
-  double yardstick = 0, spread = 0, total_error = 0;
+  double yardstick = 0, yardstick_noise = 0, spread = 0, total_error = 0;
   struct Line {
     int line = 0;
     std::uint64_t hits = 0;

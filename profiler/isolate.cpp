@@ -20,7 +20,9 @@ namespace {
 
 constexpr std::size_t kBlock = 24;  // pixels between two looks at the reference pixel
 constexpr int kReferenceRepeats = 3;
-constexpr int kKnownSteps = 200;
+constexpr int kFewestSteps = 100;    // of known work
+constexpr int kMostSteps = 4000;     // twice as many are still below the known work's own limit
+constexpr double kKnownWork = 1e5;   // ns; known work that takes so long is measured well
 constexpr double kClear = 20;        // the work takes so many times the timer's uncertainty
 constexpr double kEnough = 2e6;      // ns; a draw this long is measured well on any clock
 constexpr std::size_t kCoarse = 64;  // one pixel in so many, at first
@@ -39,6 +41,7 @@ struct Setup {
   double per_pixel = 0;  // seconds that one pixel takes
   SameOutput same_output;
   std::size_t reference = 0;  // pixel of middling cost, to see the machine's drift by
+  int steps = kFewestSteps;   // of known work, once; the yardstick is the difference to twice as many
   bool cleared = true;        // the work of a middling pixel clears the timer's uncertainty
 };
 
@@ -68,6 +71,11 @@ Setup calibrate(Isolation& isolation, const ProfileOptions& options) {
     setup.cleared = cost >= kEnough || cost - fastest(empty) >= kClear * uncertainty;
     if (setup.cleared) break;
   }
+  while (setup.steps < kMostSteps && fastest(isolation.timeKnown(setup.size, 2 * setup.steps, 3)) -
+                                             fastest(isolation.timeKnown(setup.size, setup.steps, 3)) <
+                                         kKnownWork)
+    setup.steps *= 2;
+  setup.steps = std::min(setup.steps, kMostSteps);
   setup.same_output = isolation.compareOutputs(pixels);
   return setup;
 }
@@ -130,7 +138,8 @@ class Measuring {
   double fragments() const { return static_cast<double>(setup_.size) * setup_.size; }
   std::size_t measured() const { return pixels_.size(); }
   bool quads() const { return isolation_.quads(); }
-  double yardstick() const { return median(yardsticks_) / fragments() / kKnownSteps; }
+  double yardstick() const { return median(yardsticks_); }
+  double yardstickNoise() const { return medianNoise(yardsticks_); }
   int repeats() const { return rounds_ * options_.repeats; }  // of the pixels measured longest
 
  private:
@@ -164,7 +173,10 @@ class Measuring {
         visit.reference =
             fastest(isolation_.time(std::span(&setup_.reference, 1), setup_.size, kReferenceRepeats).front());
         visit.baseline = fastest(isolation_.timeBaseline(setup_.size, kReferenceRepeats));
-        yardsticks_.push_back(isolation_.timeKnown(setup_.size, kKnownSteps, 1).front() - visit.baseline);
+        // What the draw costs besides its work is in both.
+        const double once = fastest(isolation_.timeKnown(setup_.size, setup_.steps, 2));
+        const double twice = fastest(isolation_.timeKnown(setup_.size, 2 * setup_.steps, 2));
+        yardsticks_.push_back((twice - once) / fragments() / setup_.steps);
         for (std::size_t i = 0; i < block.size(); ++i) visit.pixels.push_back(first + i);
         for (const std::vector<double>& times : isolation_.time(block, setup_.size, 1))
           visit.times.push_back(times.front());
@@ -187,7 +199,7 @@ class Measuring {
   std::vector<std::size_t> pixels_;  // in the order in which they were measured
   Timings timings_;
   int rounds_ = 1;
-  std::vector<double> yardsticks_;  // ns of draws of known work
+  std::vector<double> yardsticks_;  // ns of a step of known work
   const Stopwatch watch_;
 };
 
@@ -333,6 +345,7 @@ Profile profileIsolate(session::Session& session, const ProfileOptions& options)
   const Timings& timings = measuring.timings();
   profile.spread = timings.spread;
   profile.yardstick = measuring.yardstick();
+  profile.yardstick_noise = measuring.yardstickNoise();
   if (std::find(profile.map.state.begin(), profile.map.state.end(), PixelState::reconstructed) !=
       profile.map.state.end())
     profile.reconstruction = result.quality;

@@ -131,7 +131,8 @@ struct Profile {
   // What a step of known work costs in the same unit: makes runs on a faster and a slower day comparable. 0:
   // none.
   double yardstick = 0;
-  Grain grain;  // pixels that share a cost: a SIMD group (clock), a quad (isolate)
+  double yardstick_noise = 0;  // 95% half width, relative
+  Grain grain;                 // pixels that share a cost: a SIMD group (clock), a quad (isolate)
   // Per pixel: 1 where the threads of its grain do not all do the same, as far as is counted. Empty: not
   // counted.
   std::vector<std::uint8_t> diverging;

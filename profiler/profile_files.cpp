@@ -292,6 +292,7 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
   if (profile.same_output)
     document["same_output"] = {{"tried", profile.same_output->tried}, {"same", profile.same_output->same}};
   document["yardstick"] = number(profile.yardstick);
+  document["yardstick_noise"] = number(profile.yardstick_noise);
   document["grain"] = {profile.grain.width, profile.grain.height};
   document["timer"] = profile.timer.empty() ? Json(nullptr) : Json(profile.timer);
   document["interrupted"] = profile.interrupted;

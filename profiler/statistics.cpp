@@ -72,4 +72,16 @@ double spearman(std::span<const double> a, std::span<const double> b) {
   return pearson(ranks_a, ranks_b);
 }
 
+double medianNoise(const std::vector<double>& values) {
+  if (values.size() < 2) return 0;
+  const double middle = median(values);
+  if (middle == 0) return 0;
+  std::vector<double> deviations;
+  for (const double value : values) deviations.push_back(std::abs(value - middle));
+  // 1.4826: standard deviation over median absolute deviation; 1.2533: a median's standard error over a
+  // mean's.
+  return 1.96 * 1.2533 * 1.4826 * median(std::move(deviations)) /
+         std::sqrt(static_cast<double>(values.size())) / std::abs(middle);
+}
+
 }  // namespace shadestep::profiler

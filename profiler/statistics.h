@@ -22,4 +22,8 @@ std::vector<double> meanRanks(std::span<const double> values);
 // defined: fewer than two pairs, or all values of one side equal. The spans have the same size.
 double spearman(std::span<const double> a, std::span<const double> b);
 
+// How far the median of so many values may be off: 95% half width over the median, by their median absolute
+// deviation. 0 for fewer than two values or a median of 0.
+double medianNoise(const std::vector<double>& values);
+
 }  // namespace shadestep::profiler

@@ -65,6 +65,15 @@ TEST(Compare, takes_the_machine_s_speed_out) {
   EXPECT_EQ(comparison.verdict, Verdict::same);
 }
 
+TEST(Compare, knows_the_machine_s_speed_no_better_than_it_was_measured) {
+  Profile now = run(120, 1, 0.001);
+  EXPECT_EQ(compare(earlier(100, 1, 0.001), now, kSource).verdict, Verdict::dearer);
+  now.yardstick_noise = 0.3;
+  const Comparison comparison = compare(earlier(100, 1, 0.001), now, kSource);
+  EXPECT_EQ(comparison.verdict, Verdict::same);
+  EXPECT_EQ(comparison.dearer, 0U);
+}
+
 TEST(Compare, gives_lines_their_costs_before_and_now) {
   const std::vector<std::string> edited = {"void main() {", "  new_one();", "  a();", "}"};
   Profile now = run(100, 1, 0.01);

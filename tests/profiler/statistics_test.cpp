@@ -73,5 +73,16 @@ TEST(Spearman, is_near_zero_for_shuffled_data) {
   EXPECT_LT(std::abs(spearman(a, b)), 4 / std::sqrt(2000));
 }
 
+// Of 400 values with a standard deviation of a tenth of the median: 1.96 * 1.2533 * 0.1 / 20.
+TEST(MedianNoise, is_that_of_a_median_of_so_many) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(5, 0.5);
+  std::vector<double> values;
+  for (int i = 0; i < 400; ++i) values.push_back(normal(random));
+  EXPECT_NEAR(medianNoise(values), 0.01228, 0.0025);
+  EXPECT_EQ(medianNoise({7}), 0);
+  EXPECT_EQ(medianNoise({3, 3, 3}), 0);
+}
+
 }  // namespace
 }  // namespace shadestep::profiler
