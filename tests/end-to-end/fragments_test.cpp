@@ -219,9 +219,9 @@ TEST(Planes, LeaveOutThreadsThatEndInADiscard) {
 }
 
 // Both sources of blending have values, though only one draw buffer can then be drawn to.
-TEST(DualSources, HaveValuesByAllPlans) {
+TEST(DualSources, HaveValuesByProbes) {
   const Scratch scratch;
-  for (const char* plan : {"single", "window", "recording"}) {
+  for (const char* plan : {"single", "window"}) {
     const Finished run = scratch.shadestep(
         {"debug", "--draw", "1", "--at", "5:15", "--after", "--print", "weight", "--plan", plan, "--json"},
         {binary("agent-target"), "dual-source"});
