@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NoSuchLoop", {"loops", "--at", "1"}, kRaycaster, 3, "there are loops at line"},
         Case{"StageNotThere", {"source", "--stage", "geometry"}, kRaycaster, 3, "vertex, fragment"},
         Case{"ThreadOfAnotherStage",
-             {"debug", "--stage", "vertex", "--pixel", "16,16"},
+             {"debug", "--stage", "vertex", "--at", "8", "--print", "position", "--pixel", "16,16"},
              kRaycaster,
              2,
              "--vertex N"},

@@ -134,15 +134,15 @@ TEST(LoopChart, refuses_other_numbers_of_runs) {
 TEST(ScatterPlot, shows_a_point_for_each_finite_pair) {
   ScatterPlot plot{"y over x", "", {"x", {0, 1, 2, NAN}}, {"y", {0, 4, INFINITY, 1}}, {}};
   const Decoded plain = decode(drawScatterPlot(plot));
-  const int point = plain.of(categoricalColor(0)) / 2;
+  const int point = plain.of(categoricalColor(0), 1) / 2;
   EXPECT_GT(point, 20);  // pixels of each of the two that are left
   plot.x.values = {0, 1, 2, 3};
   plot.y.values = {0, 4, 2, 1};
-  EXPECT_GE(decode(drawScatterPlot(plot)).of(categoricalColor(0)), 4 * point);
+  EXPECT_GE(decode(drawScatterPlot(plot)).of(categoricalColor(0), 1), 4 * point);
   plot.shade = {"c", {5, 5, 5, 7}};
   const Decoded shaded = decode(drawScatterPlot(plot));
-  EXPECT_GE(shaded.of(sequentialColor(0)), 3 * point);
-  EXPECT_GE(shaded.of(sequentialColor(1)), point);
+  EXPECT_GE(shaded.of(sequentialColor(0), 1), 3 * point);
+  EXPECT_GE(shaded.of(sequentialColor(1), 1), point);
   EXPECT_GT(shaded.width, plain.width);  // the scale
 }
 
