@@ -145,11 +145,22 @@ std::optional<frontend::Call> callEndingAt(const Shader& shader, StatementId id,
   return std::nullopt;
 }
 
-void putAfterCall(Edits& edits, const Draft& draft, const frontend::Call& call, const std::string& text) {
+// A call that returns nothing still has to after that: it may be an operand of `?:`, beside one that does
+// too.
+void putAfterCall(Edits& edits, Draft& draft, const frontend::Call& call, const std::string& text) {
   const bool returns = functionAt(draft.shader(), call.callee).return_type.basic != frontend::Basic::void_;
-  const std::string buffer = returnedBuffer(draft, call);
-  edits.wrap({call.name, call.close}, returns ? "(" + buffer + " = " : "(",
-             ", " + text + (returns ? ", " + buffer + ")" : ")"));
+  if (returns) {
+    const std::string buffer = returnedBuffer(draft, call);
+    edits.wrap({call.name, call.close}, "(" + buffer + " = ", ", " + text + ", " + buffer + ")");
+    return;
+  }
+  const frontend::TokenRange range = statementAt(draft.shader(), call.statement).tokens;
+  const auto& tokens = draft.shader().tokens;
+  const bool chosen = std::any_of(tokens.begin() + range.first, tokens.begin() + range.last + 1,
+                                  [](const frontend::Token& token) { return token.text == "?"; });
+  if (chosen) draft.declare("void " + draft.name("nothing") + "() {}");
+  edits.wrap({call.name, call.close}, "(",
+             ", " + text + (chosen ? ", " + draft.name("nothing") + "())" : ")"));
 }
 
 // The buffer has the function's return type, so it can be declared only behind that type's own declaration:

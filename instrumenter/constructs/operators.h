@@ -41,7 +41,7 @@ std::optional<frontend::Call> callEndingAt(const frontend::Shader&, frontend::St
                                            frontend::TokenIndex);
 // Right after the call returned. Its buffer is declared by declareReturned, once for all who look at the
 // call.
-void putAfterCall(Edits&, const Draft&, const frontend::Call&, const std::string& text);
+void putAfterCall(Edits&, Draft&, const frontend::Call&, const std::string& text);
 void declareReturned(Draft&, const frontend::Call&);
 
 // Can a value of the type stand in a sequence (a, b)? In GLSL ES no array can.

@@ -206,6 +206,20 @@ void main() {
 }
 
 // The declaration of a subroutine type was taken for a function that nobody defines, and got a definition.
+// Behind the call stands what looks at it; both operands must still have a type, or none.
+TEST_F(Dialects, ACallThatReturnsNothingCanBeAnOperand) {
+  for (const char* version : {"120", "330 core", "300 es"}) {
+    const bool old = std::string(version) == "120";
+    const std::string color = old ? "gl_FragColor" : "color";
+    expectAllRight(run({"verify", "--json"}, version,
+                       (old ? "" : "out vec4 color;\n") +
+                           std::string("float sum = 0.0;\n"
+                                       "void more(float by) { sum += by; }\nvoid less() { sum -= 1.0; }\n"
+                                       "void main() {\n  gl_FragCoord.x > 3.0 ? more(2.0) : less();\n  ") +
+                           color + " = vec4(sum, 0.0, 0.0, 1.0);\n}\n"));
+  }
+}
+
 TEST_F(Dialects, SubroutineTypesAreNoFunctions) {
   const std::string shader =
       "subroutine float Way(int n, inout float x);\n"
