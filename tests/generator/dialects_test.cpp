@@ -213,7 +213,7 @@ TEST_F(Dialects, ACallThatReturnsNothingCanBeAnOperand) {
     const std::string color = old ? "gl_FragColor" : "color";
     expectAllRight(run({"verify", "--json"}, version,
                        (old ? "" : "out vec4 color;\n") +
-                           std::string("float sum = 0.0;\n"
+                           std::string("float sum = 1.0;\n"
                                        "void more(float by) { sum += by; }\nvoid less() { sum -= 1.0; }\n"
                                        "void main() {\n  gl_FragCoord.x > 3.0 ? more(2.0) : less();\n  ") +
                            color + " = vec4(sum, 0.0, 0.0, 1.0);\n}\n"));
