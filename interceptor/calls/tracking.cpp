@@ -140,7 +140,9 @@ void after_glShaderSource(GLuint shader, GLsizei count, const GLchar* const* str
   if (count < 0 || string == nullptr) return;
   const std::lock_guard lock(mutex);
   ShareGroup* group = currentGroup();
-  if (group != nullptr) group->shaders[shader].given = strings(count, string, length);
+  // For a name that is no shader's the driver fails before it looks at the strings, which may be anything.
+  if (group != nullptr && gl().IsShader(shader))
+    group->shaders[shader].given = strings(count, string, length);
 }
 
 void after_glCompileShader(GLuint shader) {
@@ -149,7 +151,7 @@ void after_glCompileShader(GLuint shader) {
 
 void after_glCompileShaderIncludeARB(GLuint shader, GLsizei count, const GLchar* const* paths,
                                      const GLint* lengths) {
-  if (count < 0 || (count > 0 && paths == nullptr)) return;
+  if (count < 0 || (count > 0 && paths == nullptr) || !gl().IsShader(shader)) return;
   noteCompiled(shader, strings(count, paths, lengths));
 }
 

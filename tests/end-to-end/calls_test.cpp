@@ -58,9 +58,11 @@ TEST(Calls, AreNumberedInTheirFrame) {
 TEST(Calls, WithErrorsAreFound) {
   const Scratch scratch;
   const Json errors = callsOf(scratch, {"--errors"}, "pending-error").at("calls");
-  ASSERT_EQ(errors.size(), 1U);
-  EXPECT_EQ(errors[0].at("name"), "glEnable");
-  EXPECT_EQ(errors[0].at("error"), "GL_INVALID_ENUM");
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_EQ(errors[0].at("name"), "glShaderSource");
+  EXPECT_EQ(errors[0].at("error"), "GL_INVALID_VALUE");
+  EXPECT_EQ(errors[1].at("name"), "glEnable");
+  EXPECT_EQ(errors[1].at("error"), "GL_INVALID_ENUM");
 }
 
 TEST(Calls, BetweenBeginAndEndDisturbNothing) {
