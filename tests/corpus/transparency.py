@@ -2,12 +2,14 @@
 """Runs piglit's OpenGL tests bare and under shadestep in turn, and compares what they say: every test and every subtest.
 
     scripts/transparency [PATTERN...] [--sample N] [--seed N] [--minutes M] [--every-draw] [--jobs 2] [--out DIR]
+                         [--resume]
 
 PATTERN: of names as piglit gives them (spec@arb_draw_instanced@*), and for shader tests of their paths
 (tests/spec/glsl-1.30/*). Default: all of tests/spec; --generated: the generated shader tests too. --every-draw also runs each test with one
 capture at every draw. Tests come in an order that --seed chooses, the same share of every directory at any time, so that
 --sample and --minutes cut off a fair part. What differs is run again, as often as bare: a test that does not say the same each
-time proves nothing, and is listed as unsteady.
+time proves nothing, and is listed as unsteady; one that takes longer than --timeout tells nothing, and is counted apart.
+--resume goes on where a run with the same build, --out and seed was cut off.
 Writes results.jsonl and table.md to --out (build/transparency), and prints the table. Exit status: 0 if nothing differs, 1 if something
 does, 77 if piglit or Xvfb is not installed.
 """
@@ -129,7 +131,9 @@ class Runner:
             runs["every draw"] = [self.shadestep, "run", "--every-draw", "--quiet", "--", *command]
         entry = {"test": name, "directory": directory(name), "command": command}
         entry["said"] = said = {kind: self.said(line) for kind, line in runs.items()}
-        differs = [kind for kind in runs if verdict(said[kind]) != verdict(said["bare"])]
+        late = [kind for kind in runs if said[kind]["result"] == "timeout"]
+        differs = [kind for kind in runs if kind not in late and verdict(said[kind]) != verdict(said["bare"])]
+        differs = [] if "bare" in late else differs
         unsteady = set()
         if differs:
             for kind in ["bare", *differs]:
@@ -137,6 +141,7 @@ class Runner:
                 unsteady |= {kind} if any(verdict(one) != verdict(said[kind]) for one in again) else set()
         entry["differs"] = [] if "bare" in unsteady else [kind for kind in differs if kind not in unsteady]
         entry["unsteady"] = sorted(unsteady)
+        entry["late"] = late
         entry["seconds"] = round(time.monotonic() - start, 2)
         return entry
 
@@ -144,7 +149,7 @@ class Runner:
 def table(entries: list[dict], every_draw: bool) -> str:
     kinds = ["idle"] + (["every draw"] if every_draw else [])
     header = ["directory", "tests", "skipped by the driver", "unsteady"]
-    header += [f"{kind}: differ" for kind in kinds]
+    header += [f"{kind}: {what}" for kind in kinds for what in ("out of time", "differ")]
     rows: dict[str, collections.Counter] = collections.defaultdict(collections.Counter)
     for entry in entries:
         for name in (entry["directory"], "all"):
@@ -154,6 +159,7 @@ def table(entries: list[dict], every_draw: bool) -> str:
             row[header[3]] += bool(entry.get("unsteady"))
             for kind in kinds:
                 row[f"{kind}: differ"] += kind in entry["differs"]
+                row[f"{kind}: out of time"] += kind in entry["late"] or "bare" in entry["late"]
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
     for name in sorted(rows, key=lambda one: (one == "all", one)):
         lines.append("| " + " | ".join([name] + [str(rows[name][column]) for column in header[1:]]) + " |")
@@ -168,6 +174,7 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, help="begin no test after this time")
     parser.add_argument("--every-draw", action="store_true")
     parser.add_argument("--generated", action="store_true")
+    parser.add_argument("--resume", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--timeout", type=float, default=60, help="seconds for one run of one test")
     parser.add_argument("--shadestep", type=Path, default=REPOSITORY / "build" / "release" / "bin" / "shadestep")
@@ -188,8 +195,11 @@ def main() -> int:
 
     start = time.monotonic()
     options.out.mkdir(parents=True, exist_ok=True)
-    entries = []
-    with x_server() as environment, open(options.out / "results.jsonl", "w") as results:
+    results_file = options.out / "results.jsonl"
+    entries = [json.loads(line) for line in open(results_file)] if options.resume and results_file.exists() else []
+    done = {entry["test"] for entry in entries}
+    names = [name for name in names if name not in done]
+    with x_server() as environment, open(results_file, "a" if options.resume else "w") as results:
         runner = Runner(root, environment, options)
 
         def begin(name: str) -> dict | None:
