@@ -102,6 +102,7 @@ def values(changed: dict, truth: Step, view: list[dict], interpreter: Interprete
             continue
         if name.startswith("gl_"):
             continue
+        name = name.split("[")[0] if name.startswith("picture[") else name  # the thread's own texel
         if name not in truth.values:
             if not (name == "return" and truth.returned is not None):
                 problems.append(f"{name} is shown, and means nothing here")

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from arithmetic import Undefined
 from evaluate import Evaluator
-from tree import Function, Program, S, Variable
+from tree import Function, Program, S, Variable, vec
 
 
 class Discarded(Exception):
@@ -115,6 +115,9 @@ class Interpreter(Evaluator):
         for v, cells in self.memory.items():
             if v.type.dims and place is not None and visible.get(v.name) is v and 0 <= place < len(cells):
                 values[f"{v.name}[pix]"] = (Variable(f"{v.name}[pix]", v.type.element(), "buffer"), [cells[place]])
+        for v in visible.values():  # stored with one value in all components
+            if v.storage == "image" and place is not None and 0 <= place < len(self.picture):
+                values[v.name] = (Variable(v.name, vec("int", 4), "buffer"), [self.picture[place]] * 4)
         return values
 
     def call(self, function: Function, args: list) -> list | None:
