@@ -69,7 +69,9 @@ class Builder {
       for (; insertion < skeleton_.insertions.size() && skeleton_.insertions[insertion].before <= token;
            ++insertion) {
         const Insertion& inserted = skeleton_.insertions[insertion];
-        add(inserted.mentions == kNone ? inserted.text : mention(inserted), {token, inserted.mentions});
+        add(inserted.mentions == kNone ? inserted.watched ? named(inserted.text) : inserted.text
+                                       : mention(inserted),
+            {token, inserted.mentions, inserted.watched});
       }
       addToken(token);
     }

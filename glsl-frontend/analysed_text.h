@@ -15,6 +15,7 @@ namespace shadestep::frontend {
 struct LineOrigin {
   TokenIndex token = kNone;     // the token on it, or the next one after it
   VariableId mentions = kNone;  // a variable named for its type's sake
+  bool watched = false;         // a token of a watched expression
 };
 
 struct AnalysedText {

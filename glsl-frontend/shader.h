@@ -200,18 +200,26 @@ VariableId declaredByCondition(const Shader&, StatementId);
 // Does the variable's declaration give it a value?
 bool hasInitializer(const Shader&, VariableId);
 
-// A value that a user names at a statement: a variable in scope with an optional access path
-// ("color", "color.rg", "m[1].z", "lights[2].position"). Indices are integer literals.
+// A value that a user names at a statement: a variable in scope with an optional access path ("color",
+// "color.rg", "m[1].z", "lights[2].position"; indices are integer literals), or an expression without side
+// effects ("dot(n, l) * 2.0", "weights[i]"), which the driver evaluates there.
 struct Watch {
-  std::string expression;  // valid GLSL at the statement
-  VariableId variable = kNone;
+  std::string expression;       // valid GLSL at the statement; as the user wrote it if it is no path
+  VariableId variable = kNone;  // of a path
   Type type;
+  std::vector<VariableId> reads = {};  // of an expression that is no path: what it names
 };
 struct WatchResult {
   std::optional<Watch> watch;
   std::string error;  // "no variable 'x' in scope at line 12; there are: a, b, c"
 };
 WatchResult resolveWatch(const Shader&, StatementId, std::string_view text);
+
+// The same for paths alone, which takes no parsing of the shader.
+WatchResult resolvePath(const Shader&, StatementId, std::string_view text);
+
+// The watch as an operand: an expression in parentheses.
+std::string operandOf(const Watch&);
 
 // Every identifier that the shader uses: a fresh name must not be among them.
 std::vector<std::string> identifiers(const Shader&);

@@ -26,6 +26,7 @@ struct Insertion {
   TokenIndex before = 0;
   std::string text;
   VariableId mentions = kNone;
+  bool watched = false;  // a token of a watched expression
 };
 
 // name(...) where `name` is a function of the shader. Whether it is called, or a built-in of the same name,

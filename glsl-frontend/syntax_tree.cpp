@@ -4,9 +4,11 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace shadestep::frontend {
 
@@ -274,6 +276,10 @@ class TreeReader {
 
   void read(TIntermNode* node) {
     if (!node || isMention(*node)) return;
+    if (!facts_.watched && startsWatched(*node)) {
+      readWatched(*node->getAsTyped());
+      return;
+    }
     if (with_meanings_) noteMeaning(*node);
     if (glslang::TIntermSymbol* symbol = node->getAsSymbolNode()) {
       access(*symbol, symbol->getType(), true, false);
@@ -312,6 +318,27 @@ class TreeReader {
     if (origin.mentions == kNone) return false;
     facts_.mentioned[origin.mentions] = types_.read(typed->getType());
     return true;
+  }
+
+  // The outermost node of the watched expression; what holds it has no value.
+  bool startsWatched(TIntermNode& node) const {
+    const glslang::TIntermTyped* typed = node.getAsTyped();
+    const glslang::TIntermAggregate* aggregate = node.getAsAggregate();
+    const bool statements =
+        aggregate && (aggregate->getOp() == glslang::EOpSequence || aggregate->getOp() == glslang::EOpNull);
+    return typed && !statements && typed->getBasicType() != glslang::EbtVoid && originOf(node).watched;
+  }
+
+  void readWatched(glslang::TIntermTyped& node) {
+    facts_.watched.emplace(WatchedFacts{types_.read(node.getType()), false});
+    const std::size_t calls = facts_.calls.size();
+    const auto accesses = static_cast<std::ptrdiff_t>(facts_.accesses.size());
+    const bool wrote = std::exchange(facts_.writes_memory, false);
+    read(&node);
+    facts_.watched->has_effect = facts_.writes_memory || facts_.calls.size() > calls ||
+                                 std::any_of(facts_.accesses.begin() + accesses, facts_.accesses.end(),
+                                             [](const VariableAccess& access) { return access.write; });
+    facts_.writes_memory |= wrote;
   }
 
   void readStatement(TIntermNode& node) {
@@ -440,6 +467,7 @@ void readError(const char* log, const AnalysedText& text, SyntaxFacts& facts) {
     const auto [end, status] = std::from_chars(first, message.data() + message.size(), line);
     if (status == std::errc() && line >= 1 && line <= static_cast<int>(text.lines.size())) {
       facts.error_token = text.lines[static_cast<std::size_t>(line) - 1].token;
+      facts.error_watched = text.lines[static_cast<std::size_t>(line) - 1].watched;
       message.erase(0, static_cast<std::size_t>(end - message.data()));
       message.erase(0, message.find_first_not_of(": "));
     }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -44,6 +45,12 @@ struct Meaning {
   auto operator<=>(const Meaning&) const = default;
 };
 
+// The expression that was inserted to be watched.
+struct WatchedFacts {
+  Type type;
+  bool has_effect = false;  // it writes a variable or memory, or calls a function of the shader
+};
+
 struct SyntaxFacts {
   std::vector<VariableAccess> accesses;
   std::vector<UserCall> calls;
@@ -53,11 +60,13 @@ struct SyntaxFacts {
   std::set<std::string> unreadable;       // of those, the ones that are `writeonly` as a whole or in part
   std::vector<Meaning> meanings;          // if they were asked for
   std::map<TokenIndex, std::int64_t> labels;  // at `case`: the value, where it is an integer
+  std::optional<WatchedFacts> watched;
   bool uses_derivatives = false;
   bool writes_memory = false;  // through built-in functions; buffer variables are in `accesses`
   bool early_fragment_tests = false;
   std::string error;  // glslang's message; empty if it took the text
   TokenIndex error_token = kNone;
+  bool error_watched = false;  // the error lies in the watched expression
 };
 
 // Parses with glslang. Thread-safe; prints nothing.

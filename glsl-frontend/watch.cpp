@@ -1,10 +1,11 @@
-// What a user names at a statement: a variable with an access path.
+// What a user names at a statement: a variable with an access path; else an expression (watch_expression.h).
 #include "glsl-frontend/watch.h"
 
 #include <algorithm>
 #include <string>
 
 #include "glsl-frontend/lexer.h"
+#include "glsl-frontend/watch_expression.h"
 
 namespace shadestep::frontend {
 
@@ -114,7 +115,31 @@ Watch resolve(const Shader& shader, const Statement& statement, const std::vecto
   return watch;
 }
 
-WatchResult resolveIn(const Shader& shader, StatementId id, bool after, std::string_view text) {
+// A name with members and literal indices, be they right or wrong: the messages about those say more than
+// glslang's.
+bool isPath(std::string_view text) {
+  const std::vector<LexedLine> lines = lex(text);
+  if (lines.size() != 1 || lines.front().tokens.empty()) return true;
+  const std::vector<LexedToken>& tokens = lines.front().tokens;
+  if (tokens.front().token.kind != TokenKind::identifier) return false;
+  const auto is = [&](std::size_t i, std::string_view word) {
+    return i < tokens.size() && tokens[i].token.text == word;
+  };
+  std::size_t i = 1;
+  while (i < tokens.size()) {
+    if (is(i, ".") && i + 1 < tokens.size())
+      i += 2;
+    else if (is(i, "[") && is(i + 2, "]") && tokens[i + 1].token.kind == TokenKind::number)
+      i += 3;
+    else
+      return false;
+  }
+  return true;
+}
+
+enum class Form { path, any };
+
+WatchResult resolveIn(const Shader& shader, StatementId id, bool after, Form form, std::string_view text) {
   WatchResult result;
   if (id < 0 || id >= static_cast<StatementId>(shader.statements.size())) {
     result.error = "there is no such statement";
@@ -134,17 +159,26 @@ WatchResult resolveIn(const Shader& shader, StatementId id, bool after, std::str
   } catch (const WatchError& error) {
     result.error = error.message;
   }
-  return result;
+  if (result.watch || form == Form::path || isPath(text)) return result;
+  return resolveExpression(shader, id, after, scope, text);
 }
 
 }  // namespace
 
 WatchResult resolveWatch(const Shader& shader, StatementId id, std::string_view text) {
-  return resolveIn(shader, id, false, text);
+  return resolveIn(shader, id, false, Form::any, text);
+}
+
+WatchResult resolvePath(const Shader& shader, StatementId id, std::string_view text) {
+  return resolveIn(shader, id, false, Form::path, text);
 }
 
 WatchResult resolveWatchAfter(const Shader& shader, StatementId id, std::string_view text) {
-  return resolveIn(shader, id, true, text);
+  return resolveIn(shader, id, true, Form::any, text);
+}
+
+std::string operandOf(const Watch& watch) {
+  return watch.variable == kNone ? "(" + watch.expression + ")" : watch.expression;
 }
 
 }  // namespace shadestep::frontend

@@ -7,7 +7,8 @@
 
 namespace shadestep::frontend {
 
-// As resolveWatch, behind the statement (at a loop: behind its condition): what it declares has its values there.
+// As resolveWatch, behind the statement (at a loop: behind its condition): what it declares has its values
+// there.
 WatchResult resolveWatchAfter(const Shader&, StatementId, std::string_view text);
 
 }  // namespace shadestep::frontend

@@ -45,7 +45,7 @@ Result<AttachmentShader> instrumentSingle(const Shader& shader, const Probe& pro
   std::vector<std::string> values;
   if (probe.outcome) values.push_back(outcomeText(draft, conditions, probe));
   for (std::size_t i = 0; values.size() < attachments.layout().fields.size(); ++i)
-    values.push_back(withoutFragColor(probe.watches[i].expression));
+    values.push_back(withoutFragColor(frontend::operandOf(probe.watches[i])));
   std::vector<std::string> numbers;
   for (const int iteration : probe.iterations) numbers.push_back(std::to_string(iteration));
   place(draft, conditions, paths, {{probe, "", numbers, attachments.assign(kLaunched | kReached, values)}});

@@ -93,7 +93,7 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
     const Probe& probe = probes[i];
     std::vector<std::string> values;
     if (probe.outcome) values.push_back(outcomeText(draft, conditions, probe));
-    for (const frontend::Watch& watch : probe.watches) values.push_back(withoutFragColor(watch.expression));
+    for (const frontend::Watch& watch : probe.watches) values.push_back(withoutFragColor(frontend::operandOf(watch)));
     const std::vector<std::string> numbers(
         layout.iteration_uniforms.begin(),
         layout.iteration_uniforms.begin() + static_cast<std::ptrdiff_t>(probe.iterations.size()));

@@ -130,17 +130,28 @@ std::string listed(const Shader& shader, const std::vector<VariableId>& ids) {
                                    : text;
 }
 
-}  // namespace
-
-std::string noValue(const Shader& shader, const DrawFacts& facts, const frontend::Watch& watch) {
-  if (watch.variable == frontend::kNone) return "";
-  const Variable& variable = shader.variables[static_cast<std::size_t>(watch.variable)];
+// `expression`: a path of the variable.
+std::string noValue(const Shader& shader, const DrawFacts& facts, VariableId id,
+                    const std::string& expression) {
+  const Variable& variable = shader.variables[static_cast<std::size_t>(id)];
   if (variable.storage != Storage::uniform) return "";
-  const Parts parts = partsOf(facts.active_uniforms, variable, watch.expression);
+  const Parts parts = partsOf(facts.active_uniforms, variable, expression);
   if (parts.dropped == 0) return "";
   if (parts.alive > 0) return "the driver dropped parts of this uniform, which nothing drawn depends on";
   return "the driver dropped this uniform, because nothing drawn depends on it, and with it what the program "
          "set";
+}
+
+}  // namespace
+
+std::string noValue(const Shader& shader, const DrawFacts& facts, const frontend::Watch& watch) {
+  if (watch.variable != frontend::kNone) return noValue(shader, facts, watch.variable, watch.expression);
+  for (const VariableId id : watch.reads) {
+    const Variable& variable = shader.variables[static_cast<std::size_t>(id)];
+    const std::string reason = noValue(shader, facts, id, variable.name);
+    if (!reason.empty()) return "it reads '" + variable.name + "': " + reason;
+  }
+  return "";
 }
 
 void takeOutDropped(Session& session, const std::vector<frontend::Watch>& watches, ThreadValues& values) {

@@ -42,6 +42,13 @@ instrumenter::Value partOf(const Shader& shader, const frontend::Watch& watch,
 
 instrumenter::Value recordedValue(const Shader& shader, const LastVisit& visit,
                                   const frontend::Watch& watch) {
+  if (watch.variable == frontend::kNone) {
+    throw Error(
+        Outcome::cannot_debug,
+        "'" + watch.expression +
+            "' is an expression, and a recording holds variables; print those that it reads, or leave "
+            "--hit or --plan recording out");
+  }
   const auto known = visit.known.find(watch.variable);
   if (known != visit.known.end()) return partOf(shader, watch, known->second.value);
   throw Error(Outcome::cannot_debug,

@@ -115,7 +115,9 @@ void compareChanges(const Shader& shader, Findings& findings, const Pixel& pixel
     const auto other = std::find_if(recorded.changed.begin(), recorded.changed.end(), same);
     if (other == recorded.changed.end()) continue;
     const frontend::WatchResult meant = frontend::resolveWatchAfter(shader, redrawn.statement, value.name);
-    if (!meant.watch || mayBeUndefined(shader, meant.watch->variable)) continue;
+    if (!meant.watch || meant.watch->variable == frontend::kNone ||
+        mayBeUndefined(shader, meant.watch->variable))
+      continue;
     findings.compared();
     if (value.value == other->value) continue;
     findings.fail(Kind::value, &at, "redraws", value.name,

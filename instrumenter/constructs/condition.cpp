@@ -57,7 +57,7 @@ Type outcomeType(const Shader& shader, StatementId id) {
   const TokenRange range = conditionTokens(shader, id);
   std::string text;
   for (TokenIndex i = range.first; i <= range.last; ++i) text += at(shader, i).text;
-  const frontend::WatchResult named = frontend::resolveWatch(shader, id, text);
+  const frontend::WatchResult named = frontend::resolvePath(shader, id, text);
   if (named.watch) return named.watch->type;
   // Labels have the selector's type; so have its own literals.
   const auto isUnsigned = [](const Token& token) {

@@ -1,6 +1,7 @@
 #include "instrumenter/constructs/fragment_outputs.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
 #include "instrumenter/constructs/declaration.h"
@@ -56,8 +57,18 @@ std::string broadcastFragColor(const frontend::Shader& shader, int used_draw_buf
 }
 
 std::string withoutFragColor(const std::string& expression) {
-  if (!expression.starts_with(kFragColor)) return expression;
-  return std::string(kReplacement) + expression.substr(kFragColor.size());
+  const auto partOfName = [&](std::size_t i) {
+    return i < expression.size() &&
+           (std::isalnum(static_cast<unsigned char>(expression[i])) || expression[i] == '_');
+  };
+  std::string result;
+  for (std::size_t i = 0; i < expression.size();) {
+    const bool named = expression.compare(i, kFragColor.size(), kFragColor) == 0 &&
+                       (i == 0 || !partOfName(i - 1)) && !partOfName(i + kFragColor.size());
+    result += named ? std::string(kReplacement) : expression.substr(i, 1);
+    i += named ? kFragColor.size() : 1;
+  }
+  return result;
 }
 
 void locateOnlyOutput(Draft& draft) {
