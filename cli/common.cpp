@@ -134,13 +134,6 @@ void runToSelection(session::Session& session, const Common& common) {
   session.shader();  // exit 3 if there is none, 4 if it has no source or cannot be analysed
 }
 
-void requireFragmentStage(const Common& common, const char* command) {
-  if (selectedStage(common) == session::Stage::fragment) return;
-  throw Error(Outcome::cannot_debug, std::string("'") + command +
-                                         "' looks at fragment shaders only; 'shadestep debug --stage " +
-                                         common.stage + "' shows values and whole runs of this stage");
-}
-
 std::size_t pixelIndex(session::Session& session, const std::string& text) {
   const std::vector<int> xy = parseIntegers(text, "--pixel", 2, 2);
   const session::DrawFacts& facts = session.facts();

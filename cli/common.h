@@ -52,8 +52,6 @@ std::vector<std::string> splitList(const std::string& text);  // at commas, blan
 
 // The selected stage; throws usage for a name that is none.
 session::Stage selectedStage(const Common&);
-// For commands that do no more than that; throws cannot_debug.
-void requireFragmentStage(const Common&, const char* command);
 // Runs to the selected draw and selects its stage, which must be there and can be analysed.
 void runToSelection(session::Session&, const Common&);
 

@@ -56,78 +56,74 @@ Captured captureLoops(Session& session, const std::vector<StatementId>& loops, s
     const std::vector<StatementId> batch(
         loops.begin() + static_cast<std::ptrdiff_t>(first),
         loops.begin() + static_cast<std::ptrdiff_t>(first + std::max<std::size_t>(count, 1)));
-    auto instrumented =
-        instrumenter::instrumentLoops(session.shader(), batch, session.target());
+    auto instrumented = instrumenter::instrumentLoops(session.shader(), batch, session.target());
     if (const auto* shader = std::get_if<instrumenter::AttachmentShader>(&instrumented))
       return session.capture(*shader);
     if (count <= 1) throw Error(Outcome::cannot_debug, std::get<instrumenter::Failure>(instrumented).reason);
   }
 }
 
-LoopReport reportOf(const Shader& shader, StatementId id, const Captured& captured, std::size_t number,
-                    const std::vector<std::uint8_t>& marks) {
-  const std::size_t pixels = captured.threads.count();
+// `fields`: those of the loop, in instrumentLoops's order.
+LoopReport reportOf(const Shader& shader, StatementId id, const std::vector<std::uint8_t>& marks,
+                    const WatchedValues* fields) {
+  const std::size_t threads = marks.size();
   LoopReport loop;
   loop.statement = id;
   const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(id)];
   loop.line = statement.place.line;
   loop.function = shader.functions[static_cast<std::size_t>(statement.function)].name;
-  loop.iterations.assign(pixels, 0);
-  loop.longest.assign(pixels, 0);
+  loop.iterations.assign(threads, 0);
+  loop.longest.assign(threads, 0);
   std::vector<std::uint32_t> longest;
   std::uint64_t sum = 0;
-  std::vector<instrumenter::FieldDecoder> decoders;
-  for (std::size_t which = 0; which < kFields; ++which)
-    decoders.emplace_back(captured.layout, captured.layout.fields[number * kFields + which]);
-  std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
-  for (std::size_t p = 0; p < pixels; ++p) {
-    if (marks[p] == 0) continue;
-    captured.threads.read(p, words.data());
-    const auto field = [&](std::size_t which) {
-      std::uint32_t value = 0;
-      decoders[which].decode(words.data(), &value);
-      return value;
-    };
-    const std::uint32_t entries = field(0);
-    if (entries == 0) continue;
+  for (std::size_t t = 0; t < threads; ++t) {
+    const std::uint32_t entries = *fields[0].at(t);
+    if (marks[t] == 0 || entries == 0) continue;
     ++loop.threads;
     loop.entries = std::max(loop.entries, entries);
-    loop.iterations[p] = field(1);
-    loop.max = std::max(loop.max, loop.iterations[p]);
-    sum += loop.iterations[p];
-    loop.longest[p] = field(2);
-    longest.push_back(loop.longest[p]);
-    loop.cut += field(3) > 0 ? 1 : 0;
+    loop.iterations[t] = *fields[1].at(t);
+    loop.max = std::max(loop.max, loop.iterations[t]);
+    sum += loop.iterations[t];
+    loop.longest[t] = *fields[2].at(t);
+    longest.push_back(loop.longest[t]);
+    loop.cut += *fields[3].at(t) > 0 ? 1 : 0;
   }
   if (loop.threads > 0) loop.mean = static_cast<double>(sum) / static_cast<double>(loop.threads);
   countPerIteration(loop, longest);
   return loop;
 }
 
+// The threads that `only` names, or all.
+std::vector<std::uint8_t> wantedMarks(const ThreadValues& threads, const std::vector<std::uint8_t>& only) {
+  std::vector<std::uint8_t> marks;
+  for (std::size_t t = 0; t < threads.marks.size(); ++t) {
+    const bool wanted = only.empty() || only.at(t) != 0;
+    marks.push_back(wanted ? threads.marks[t] : std::uint8_t{0});
+  }
+  return marks;
+}
+
 }  // namespace
 
 LoopsReport profileLoops(Session& session, int line, const std::vector<std::uint8_t>& only) {
+  session.requireCapturable();
   const Shader& shader = session.shader();
   const std::vector<StatementId> loops = selectLoops(shader, line);
-  LoopsReport report;
-  while (report.loops.size() < loops.size()) {
-    const Captured captured = captureLoops(session, loops, report.loops.size());
-    if (report.loops.empty()) {
-      report.width = captured.threads.width();
-      report.height = captured.threads.height();
-      for (std::size_t p = 0; p < captured.threads.count(); ++p) {
-        const auto mark = instrumenter::decodeMark(captured.layout, captured.threads.head(p));
-        const bool wanted = only.empty() || only.at(p) != 0;
-        report.marks.push_back(wanted ? static_cast<std::uint8_t>(mark) : 0);
-      }
-      report.check = captured.execution.check;
-    } else {
-      report.check.merge(captured.execution.check);
-    }
-    const std::size_t taken = captured.layout.fields.size() / kFields;
-    for (std::size_t l = 0; l < taken; ++l)
-      report.loops.push_back(reportOf(shader, loops[report.loops.size()], captured, l, report.marks));
+  ThreadValues threads;
+  while (threads.values.size() < loops.size() * kFields) {
+    const Captured captured = captureLoops(session, loops, threads.values.size() / kFields);
+    addPass(threads, captured.threads, captured.layout, captured.execution.check);
   }
+  if (only.empty() && session.stage() != Stage::fragment)
+    nameThreads(threads, session.stage(), session.stop());
+  LoopsReport report;
+  report.width = threads.width;
+  report.height = threads.height;
+  report.marks = wantedMarks(threads, only);
+  report.check = std::move(threads.check);
+  for (std::size_t l = 0; l < loops.size(); ++l)
+    report.loops.push_back(reportOf(shader, loops[l], report.marks, &threads.values[l * kFields]));
+  report.identity = std::move(threads.identity);
   return report;
 }
 

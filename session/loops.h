@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "session/session.h"
+#include "session/thread_values.h"
 
 namespace shadestep::session {
 
@@ -23,20 +24,23 @@ struct LoopReport {
   // after 65,536 iterations of all loops of a thread together). Their counts are the driver's, not the
   // shader's.
   std::uint64_t cut = 0;
-  std::vector<std::uint32_t> iterations;  // per pixel, rows bottom up, all entries together
-  std::vector<std::uint32_t> longest;     // per pixel: of its longest entry
+  std::vector<std::uint32_t> iterations;  // per thread, all entries together
+  std::vector<std::uint32_t> longest;     // per thread: of its longest entry
 };
 
+// Of fragments the threads lie as the pixels of the target, rows bottom up; of other stages in one row.
 struct LoopsReport {
   int width = 0, height = 0;
   std::vector<std::uint8_t>
-      marks;  // per pixel: instrumenter::kLaunched where there is a thread, | kDiscarded if it ends so
+      marks;  // per thread: instrumenter::kLaunched where there is one, | kDiscarded if it ends so
+  std::vector<WatchedValues> identity;  // as ThreadValues::identity
   std::vector<LoopReport> loops;
   Check check;
 };
 
-// All loops of the selected stage's shader, or the one at `line` if line > 0; of the pixels with only[pixel] != 0, if
-// it is not empty. Throws nothing_matches if there is no loop.
+// All loops of the selected stage's shader, or the one at `line` if line > 0. With `only`: of the threads
+// with only[thread] != 0, as they lie in a capture, where a vertex that several indices name lies as often as
+// the driver runs it. Throws nothing_matches if there is no loop.
 LoopsReport profileLoops(Session&, int line = 0, const std::vector<std::uint8_t>& only = {});
 
 }  // namespace shadestep::session

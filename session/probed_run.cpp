@@ -1,10 +1,10 @@
 #include "session/probed_run.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 
 #include "session/navigation.h"
+#include "session/thread_values.h"
 #include "session/values.h"
 
 namespace shadestep::session {
@@ -25,13 +25,11 @@ bool runsAsAWhole(const Statement& statement) {
 
 class ProbedRun {
  public:
-  // The thread in a capture; past its end if it is not there.
-  using Find = std::function<std::size_t(const Captured&)>;
-  ProbedRun(Session& session, Find find, std::string none)
+  ProbedRun(Session& session, ThreadName thread, std::string none)
       : session_(session),
         shader_(session.shader()),
         navigation_(shader_),
-        find_(std::move(find)),
+        thread_(std::move(thread)),
         none_(std::move(none)) {}
 
   ThreadRun follow(std::size_t most_steps) {
@@ -68,20 +66,17 @@ class ProbedRun {
         rest.erase(rest.begin());  // too wide for the draw buffers: left out, as recordings do
         continue;
       }
-      const Captured captured = session_.capture(std::get<instrumenter::AttachmentShader>(instrumented));
+      const ThreadValues threads = onePass(session_, std::get<instrumenter::AttachmentShader>(instrumented));
       looked = true;
-      run_.check.merge(captured.execution.check);
-      std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
-      if (const std::size_t thread = find_(captured); thread < captured.threads.count())
-        captured.threads.read(thread, words.data());
-      const std::uint32_t mark = instrumenter::decodeMark(captured.layout, words.data());
-      if (mark == 0 && run_.steps.empty()) throw Error(Outcome::nothing_matches, none_);
-      reached_ = (mark & instrumenter::kReached) != 0;
+      run_.check.merge(threads.check);
+      const std::optional<std::size_t> thread = threads.find(thread_);
+      if (!thread && run_.steps.empty()) throw Error(Outcome::nothing_matches, none_);
+      reached_ = thread && threads.reachedAt(*thread);
       if (!reached_) return {};
       std::size_t taken = 0;
-      for (const instrumenter::Field& field : captured.layout.fields) {
-        values.push_back({field.name, instrumenter::decode(captured.layout, field, words.data())});
-        taken += field.name.empty() ? 0 : 1;
+      for (const WatchedValues& one : threads.values) {
+        values.push_back({one.name, one.valueAt(*thread)});
+        taken += one.name.empty() ? 0 : 1;
       }
       if (taken == 0) break;
       rest.erase(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(std::min(taken, rest.size())));
@@ -231,7 +226,7 @@ class ProbedRun {
   Session& session_;
   const Shader& shader_;
   Navigation navigation_;
-  Find find_;
+  ThreadName thread_;
   std::string none_;  // what to say if the thread is not there
   ThreadRun run_;
   bool reached_ = false;
@@ -241,8 +236,7 @@ class ProbedRun {
 }  // namespace
 
 ThreadRun followPixelByProbes(Session& session, int x, int y, std::size_t most_steps) {
-  const auto find = [x, y](const Captured& captured) { return captured.threads.index(x, y); };
-  ThreadRun run = ProbedRun(session, find,
+  ThreadRun run = ProbedRun(session, pixelName(x, y),
                             "the draw has no visible fragment on pixel " + std::to_string(x) + "," +
                                 std::to_string(y) + "; pick one that it covers")
                       .follow(most_steps);
@@ -255,9 +249,8 @@ ThreadRun followPixelByProbes(Session& session, int x, int y, std::size_t most_s
   return run;
 }
 
-ThreadRun followThreadByProbes(Session& session, std::size_t number, std::size_t most_steps) {
-  const auto find = [number](const Captured&) { return number; };
-  return ProbedRun(session, find, "the draw does not run this thread").follow(most_steps);
+ThreadRun followThreadByProbes(Session& session, const ThreadName& thread, std::size_t most_steps) {
+  return ProbedRun(session, thread, "the draw does not run this thread").follow(most_steps);
 }
 
 }  // namespace shadestep::session

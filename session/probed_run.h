@@ -10,7 +10,7 @@ namespace shadestep::session {
 // them; then `complete` is false. Throws nothing_matches if no visible fragment is there.
 ThreadRun followPixelByProbes(Session&, int x, int y, std::size_t most_steps = 500);
 
-// The same of another stage: the thread that stands at this place among those of a capture.
-ThreadRun followThreadByProbes(Session&, std::size_t number, std::size_t most_steps = 500);
+// The same of a thread of the selected stage, which is another one, by its name.
+ThreadRun followThreadByProbes(Session&, const ThreadName&, std::size_t most_steps = 500);
 
 }  // namespace shadestep::session

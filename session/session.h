@@ -66,8 +66,9 @@ bool drawsOnce(const DrawStop&);
 
 // A thread by the numbers of its identity (ThreadValues::identity), with their names. Those left out are 0.
 // Of threads that are told apart by coordinates (`u` and `v`), "vertex" says which of those with the same
-// numbers otherwise.
+// numbers otherwise. A fragment is named by its pixel, "x" and "y" (gl_FragCoord's origin, lower left).
 using ThreadName = std::vector<std::pair<std::string, std::int32_t>>;
+ThreadName pixelName(int x, int y);
 
 struct StageFacts {
   Stage stage = Stage::fragment;

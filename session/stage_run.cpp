@@ -112,32 +112,6 @@ std::vector<NamedValue> inputsOf(const Shader& shader, const ThreadValues& threa
   return inputs;
 }
 
-std::string range(const WatchedValues& numbers) {
-  const auto less = [](std::uint32_t a, std::uint32_t b) {
-    return static_cast<std::int32_t>(a) < static_cast<std::int32_t>(b);
-  };
-  const auto [least, most] = std::minmax_element(numbers.words.begin(), numbers.words.end(), less);
-  return numbers.name + " " + std::to_string(static_cast<std::int32_t>(*least)) + " to " +
-         std::to_string(static_cast<std::int32_t>(*most));
-}
-
-// Coordinates are no numbers to ask for: threads that they tell apart are counted.
-[[noreturn]] void noSuchThread(const ThreadValues& threads, const ThreadName& wanted) {
-  std::string asked;
-  std::string there;
-  bool counted = false;
-  for (const auto& [part, number] : wanted)
-    if (number != 0 || part != "repeat")
-      asked += (asked.empty() ? "" : ", ") + part + " " + std::to_string(number);
-  for (const WatchedValues& numbers : threads.identity) {
-    counted = counted || numbers.type.basic == frontend::Basic::float_;
-    if (!counted && !numbers.words.empty()) there += (there.empty() ? "" : ", ") + range(numbers);
-  }
-  if (counted) there += " with " + std::to_string(threads.launched) + " generated vertices in all";
-  throw Error(Outcome::nothing_matches, "the draw runs no thread " + asked + "; " +
-                                            (threads.launched == 0 ? "it runs none" : "there are " + there));
-}
-
 // The numbers that the recording compares, and which of the threads that have them is meant.
 std::vector<std::int32_t> numbersOf(const ThreadValues& threads, std::size_t thread, std::size_t& repeat) {
   std::vector<std::int32_t> numbers;
@@ -155,27 +129,27 @@ std::vector<std::int32_t> numbersOf(const ThreadValues& threads, std::size_t thr
 ThreadRun followThread(Session& session, const ThreadName& name) {
   const Shader& shader = session.shader();
   const ThreadValues inputs = valuesAt(session, inputsProbe(shader));
-  const std::optional<std::size_t> number = inputs.find(name);
-  if (!number) noSuchThread(inputs, name);
+  const std::size_t number = requireThread(inputs, name);
 
   auto instrumented = instrumenter::instrumentRecording(shader, session.target());
   ThreadRun run;
   if (auto* recording = std::get_if<instrumenter::RecordingShader>(&instrumented)) {
     Prepared program = session.prepare(*recording);
     std::size_t repeat = 0;
-    const std::vector<std::int32_t> numbers = numbersOf(inputs, *number, repeat);
+    const std::vector<std::int32_t> numbers = numbersOf(inputs, number, repeat);
     const Session::Recorded recorded = session.record({std::move(*recording), std::move(program)}, numbers);
-    if (recorded.recording.threads.size() <= repeat) noSuchThread(inputs, name);
+    if (recorded.recording.threads.size() <= repeat)
+      throw Error(Outcome::failed, "the draw does not run this thread again; its run cannot be shown");
     const instrumenter::ThreadRecording& thread = recorded.recording.threads[repeat];
     run.steps = stepsOf(shader, recorded.layout, thread);
     run.complete = thread.complete;
     run.check = recorded.execution.check;
   } else {
-    run = followThreadByProbes(session, *number);
+    run = followThreadByProbes(session, name);
   }
-  for (const WatchedValues& one : inputs.identity) run.identity.push_back({one.name, one.valueAt(*number)});
+  for (const WatchedValues& one : inputs.identity) run.identity.push_back({one.name, one.valueAt(number)});
   std::string ambiguous;
-  run.inputs = inputsOf(shader, inputs, *number, ambiguous);
+  run.inputs = inputsOf(shader, inputs, number, ambiguous);
   run.check.merge(inputs.check);
   if (!ambiguous.empty())
     run.check.left_out += (run.check.left_out.empty() ? "" : "; ") +

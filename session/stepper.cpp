@@ -21,11 +21,12 @@ bool isLoop(frontend::StatementKind kind) {
 
 }  // namespace
 
-Stepper::Stepper(Session& session, std::optional<std::size_t> pixel, Plan plan)
+Stepper::Stepper(Session& session, std::optional<ThreadName> thread, Plan plan)
     : session_(session),
-      shader_(session.shader(Stage::fragment)),
+      stage_(session.stage()),
+      shader_(session.shader()),
       navigation_(shader_),
-      pixel_(pixel),
+      thread_(std::move(thread)),
       plan_(makePlan(session, plan)) {
   position_ = navigation_.start();
 }
@@ -34,6 +35,15 @@ void Stepper::moveTo(const Position& position) {
   position_ = position;
   here_.reset();
   sides_.reset();
+}
+
+void Stepper::pick(std::optional<ThreadName> thread) {
+  thread_ = std::move(thread);
+  sides_.reset();
+}
+
+std::optional<std::size_t> Stepper::pickedIn(const ThreadValues& threads) const {
+  return thread_ ? threads.find(*thread_) : std::nullopt;
 }
 
 ThreadValues Stepper::look(const std::vector<std::string>& watches) {
@@ -52,6 +62,7 @@ const ThreadValues& Stepper::here(const std::vector<std::string>& watches) {
   const auto known = [&](const std::string& name) { return valueOf(*here_, name) != nullptr; };
   if (here_ && std::all_of(watches.begin(), watches.end(), known)) return *here_;
 
+  session_.select(stage_);
   here_ = plan_->valuesAt(probe);
   return *here_;
 }
@@ -85,6 +96,7 @@ std::vector<TakenChoice> Stepper::choices() {
     if (in_increment && probe.iterations.back()-- == 0)
       continue;  // nothing is incremented before the first decision
 
+    session_.select(stage_);
     const frontend::Token& token = shader_.tokens[static_cast<std::size_t>(op)];
     TakenChoice choice{token.text == "?" ? "?:" : token.text, token.place, valuesAt(session_, probe), 0, 0};
     for (std::size_t p = 0; p < choice.outcome.marks.size(); ++p) {
@@ -104,13 +116,15 @@ const std::vector<TakenSide>& Stepper::sides() {
   const WatchedValues& outcome = threads.values.front();
   std::vector<TakenSide> ways;
   for (const Side& side : sides)
-    ways.push_back({side, 0, std::vector<std::uint8_t>(threads.marks.size(), 0)});
+    ways.push_back({side, 0, std::vector<std::uint8_t>(threads.marks.size(), 0), false});
   for (std::size_t p = 0; p < threads.marks.size(); ++p) {
     if (!threads.reachedAt(p)) continue;
     TakenSide& taken = ways[sideOf(sides, outcome.type.basic, *outcome.at(p))];
     ++taken.threads;
     taken.mask[p] = 1;
   }
+  if (const auto picked = pickedIn(threads))
+    for (TakenSide& way : ways) way.picked = way.mask[*picked] != 0;
   sides_ = std::move(ways);
   return *sides_;
 }
@@ -123,11 +137,8 @@ void Stepper::choose(const std::string& name) {
       return std::find_if(ways.begin(), ways.end(),
                           [&](const TakenSide& way) { return way.side.name == name; });
     }
-    if (pixel_) {
-      const auto own = std::find_if(ways.begin(), ways.end(),
-                                    [&](const TakenSide& way) { return way.mask[*pixel_] != 0; });
-      if (own != ways.end()) return own;
-    }
+    const auto own = std::find_if(ways.begin(), ways.end(), [](const TakenSide& way) { return way.picked; });
+    if (own != ways.end()) return own;
     return std::max_element(ways.begin(), ways.end(),
                             [](const TakenSide& a, const TakenSide& b) { return a.threads < b.threads; });
   };

@@ -1,6 +1,6 @@
-// Stepping through a fragment shader for all threads of a draw at once (thesis 7.1.6): a position in the
-// source, the threads that get there, and at a branch how many go which way. Threads that take another way
-// are simply not at the position; after the branch they are again.
+// Stepping through a shader of any stage for all threads of a draw or a dispatch at once (thesis 7.1.6): a
+// position in the source, the threads that get there, and at a branch how many go which way. Threads that
+// take another way are simply not at the position; after the branch they are again.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,8 @@ namespace shadestep::session {
 struct TakenSide {
   Side side;
   std::uint64_t threads = 0;
-  std::vector<std::uint8_t> mask;  // per pixel, rows bottom up: 1 where the thread goes this way
+  std::vector<std::uint8_t> mask;  // per thread, as they lie in look()'s values: 1 where it goes this way
+  bool picked = false;             // the picked thread does
 };
 
 // An operator ?:, && or || in the statement at the position, and how the operand that decides came out.
@@ -31,11 +32,11 @@ struct TakenChoice {
 
 class Stepper {
  public:
-  // At the start of main of the current draw's fragment shader. `pixel` (index into the target) picks the
-  // thread whose way is followed where no side is chosen; without one, the way that most threads take.
-  // By the window plan and the automatic one, a window moves along with the position, and steps inside of it
-  // cost no compilation.
-  explicit Stepper(Session&, std::optional<std::size_t> pixel = std::nullopt, Plan plan = Plan::automatic);
+  // At the start of main of the selected stage's shader, which stays the one that is stepped through.
+  // `thread` is picked: its way is followed where no side is chosen; without one, the way that most threads
+  // take. A thread that the draw does not run is no error. By the window plan and the automatic one, a window
+  // moves along with the position, and steps inside of it cost no compilation.
+  explicit Stepper(Session&, std::optional<ThreadName> thread = std::nullopt, Plan plan = Plan::automatic);
 
   const frontend::Shader& shader() const { return shader_; }
   const Navigation& navigation() const { return navigation_; }
@@ -44,7 +45,9 @@ class Stepper {
 
   void moveTo(const Position&);
   // Picks another thread, or none.
-  void pick(std::optional<std::size_t> pixel) { pixel_ = pixel; }
+  void pick(std::optional<ThreadName>);
+  // The picked thread's place among values of this draw; nothing if none is picked or it is not run.
+  std::optional<std::size_t> pickedIn(const ThreadValues&) const;
   // Values of variables in scope, of all threads that are at the position. One redraw (more for more watches
   // than one draw holds); none for what was looked at here before.
   ThreadValues look(const std::vector<std::string>& watches);
@@ -67,10 +70,11 @@ class Stepper {
   }
 
   Session& session_;
+  Stage stage_;
   const frontend::Shader& shader_;
   Navigation navigation_;
   Position position_;
-  std::optional<std::size_t> pixel_;
+  std::optional<ThreadName> thread_;
   std::unique_ptr<CapturePlan> plan_;
   std::optional<ThreadValues> here_;             // what is known of the current position
   std::optional<std::vector<TakenSide>> sides_;  // of the current position, once asked for

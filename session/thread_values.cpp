@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
-#include <set>
 
 #include "glsl-frontend/watch.h"
 #include "session/values.h"
@@ -208,129 +206,12 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
   std::move(fields.values.begin(), fields.values.end(), std::back_inserter(result.values));
 }
 
-std::optional<std::size_t> ThreadValues::find(const ThreadName& name) const {
-  const auto numbers = [](const WatchedValues& one) { return one.type.basic == frontend::Basic::int_; };
-  const bool counted = !std::all_of(identity.begin(), identity.end(), numbers);
-  std::int32_t before = 0;
-  std::vector<std::pair<const WatchedValues*, std::int32_t>> wanted;
-  for (const WatchedValues& one : identity)
-    if (numbers(one)) wanted.emplace_back(&one, 0);
-  for (const auto& [part, number] : name) {
-    const auto known = std::find_if(wanted.begin(), wanted.end(),
-                                    [&part = part](const auto& one) { return one.first->name == part; });
-    if (known != wanted.end())
-      known->second = number;
-    else if (counted && part == "vertex")
-      before = number;
-    else if (number != 0)
-      return std::nullopt;  // none has such a number
-  }
-  for (std::size_t p = 0; p < marks.size(); ++p) {
-    const bool same = marks[p] != 0 && std::all_of(wanted.begin(), wanted.end(), [p](const auto& one) {
-                        return static_cast<std::int32_t>(*one.first->at(p)) == one.second;
-                      });
-    if (same && before-- == 0) return p;
-  }
-  return std::nullopt;
-}
-
-namespace {
-
-WatchedValues numbers(const std::string& name, std::size_t count) {
-  WatchedValues values{name, {}, 1, std::vector<std::uint32_t>(count)};
-  values.type.basic = frontend::Basic::int_;
-  return values;
-}
-
-// All words that belong to a thread.
-std::vector<std::uint32_t> wordsAt(const ThreadValues& threads, std::size_t thread) {
-  std::vector<std::uint32_t> words = {threads.marks[thread]};
-  for (const auto* list : {&threads.identity, &threads.values})
-    for (const WatchedValues& values : *list)
-      words.insert(words.end(), values.at(thread), values.at(thread) + values.stride);
-  return words;
-}
-
-void keep(WatchedValues& values, const std::vector<std::size_t>& kept) {
-  std::vector<std::uint32_t> words;
-  for (const std::size_t thread : kept)
-    words.insert(words.end(), values.at(thread), values.at(thread) + values.stride);
-  values.words = std::move(words);
-}
-
-// Threads by identity, and those of one identity in the order in which they lie.
-std::vector<std::size_t> byIdentity(const ThreadValues& threads) {
-  std::vector<std::size_t> order(threads.marks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    for (const WatchedValues& one : threads.identity)
-      if (*one.at(a) != *one.at(b)) return *one.at(a) < *one.at(b);
-    return false;
-  });
-  return order;
-}
-
-bool sameIdentity(const ThreadValues& threads, std::size_t a, std::size_t b) {
-  return std::all_of(threads.identity.begin(), threads.identity.end(),
-                     [&](const WatchedValues& one) { return *one.at(a) == *one.at(b); });
-}
-
-// Of threads that agree in all that is known of them, one stays.
-void keepOneOfEach(ThreadValues& threads) {
-  const std::size_t count = threads.marks.size();
-  const std::vector<std::size_t> order = byIdentity(threads);
-  std::vector<std::size_t> kept;
-  std::set<std::vector<std::uint32_t>> same;  // of one identity
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool first = i == 0 || !sameIdentity(threads, order[i - 1], order[i]);
-    const bool alone = first && (i + 1 == count || !sameIdentity(threads, order[i], order[i + 1]));
-    if (first) same.clear();
-    if (alone || same.insert(wordsAt(threads, order[i])).second) kept.push_back(order[i]);
-  }
-  std::sort(kept.begin(), kept.end());
-  if (kept.size() == count) return;
-
-  for (auto* list : {&threads.identity, &threads.values})
-    for (WatchedValues& values : *list) keep(values, kept);
-  std::vector<std::uint8_t> marks;
-  threads.launched = threads.reached = 0;
-  for (const std::size_t p : kept) {
-    marks.push_back(threads.marks[p]);
-    threads.launched += marks.back() != 0 ? 1 : 0;
-    threads.reached += (marks.back() & instrumenter::kReached) != 0 ? 1 : 0;
-  }
-  threads.marks = std::move(marks);
-  threads.width = static_cast<int>(kept.size());
-}
-
-void numberRepeats(ThreadValues& threads) {
-  const std::vector<std::size_t> order = byIdentity(threads);
-  WatchedValues repeat = numbers("repeat", order.size());
-  bool any = false;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (!sameIdentity(threads, order[i - 1], order[i])) continue;
-    repeat.words[order[i]] = repeat.words[order[i - 1]] + 1;
-    any = true;
-  }
-  if (any) threads.identity.push_back(std::move(repeat));
-}
-
-}  // namespace
-
-void nameThreads(ThreadValues& threads, Stage stage, const DrawStop& stop) {
-  const std::size_t count = threads.marks.size();
-  if (threads.identity.empty()) {
-    threads.identity = {numbers("vertex", count), numbers("instance", count)};
-    const std::size_t each =
-        std::max<std::size_t>(count / static_cast<std::size_t>(std::max<std::int64_t>(stop.instances, 1)), 1);
-    for (std::size_t p = 0; p < count; ++p) {
-      threads.identity[0].words[p] = static_cast<std::uint32_t>(p % each);
-      threads.identity[1].words[p] = static_cast<std::uint32_t>(p / each);
-    }
-    return;
-  }
-  if (stage == Stage::vertex || (stage == Stage::tess_eval && drawsOnce(stop))) keepOneOfEach(threads);
-  if (stage != Stage::vertex && stage != Stage::compute) numberRepeats(threads);
+ThreadValues onePass(Session& session, const instrumenter::AttachmentShader& shader) {
+  const Captured captured = session.capture(shader);
+  ThreadValues threads;
+  addPass(threads, captured.threads, captured.layout, captured.execution.check);
+  if (session.stage() != Stage::fragment) nameThreads(threads, session.stage(), session.stop());
+  return threads;
 }
 
 ThreadValues valuesAt(Session& session, Probe probe, const std::vector<std::string>& watches) {

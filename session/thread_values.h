@@ -45,10 +45,13 @@ struct ThreadValues {
   frontend::StatementId statement = frontend::kNone;
   Check check;
 
-  // The thread of this name; nothing if there is none.
+  // The thread of this name (of fragments: pixelName); nothing if there is none.
   std::optional<std::size_t> find(const ThreadName&) const;
   bool reachedAt(std::size_t pixel) const { return (marks[pixel] & instrumenter::kReached) != 0; }
 };
+
+// The thread of this name. Throws nothing_matches, saying what there is.
+std::size_t requireThread(const ThreadValues&, const ThreadName&);
 
 // Runs as many single-probe passes as the watches need and joins them.
 // Throws nothing_matches for a place or a name that is not there, saying what is.
@@ -70,6 +73,9 @@ frontend::StatementId scopeAt(const frontend::Shader&, const instrumenter::Probe
 // Takes in one pass over a place: its marks, which must be those of the passes before, its fields and its
 // check.
 void addPass(ThreadValues&, const ThreadWords&, const instrumenter::AttachmentLayout&, const Check&);
+
+// What one pass shows, its threads named.
+ThreadValues onePass(Session&, const instrumenter::AttachmentShader&);
 
 // To be called after the last pass: numbers the threads of a dialect that does not tell them apart, and
 // leaves one of those that are the same thread (a vertex that several indices name is one, whatever the

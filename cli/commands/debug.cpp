@@ -6,6 +6,11 @@
 namespace shadestep::cli {
 namespace {
 
+// From a fragment to the runs of an earlier stage that it comes from, which are whole runs.
+bool followsPixels(session::Stage stage, const DebugOptions& options) {
+  return options.at.empty() && options.hit < 0 && stage != session::Stage::compute;
+}
+
 // --hit with --at is about one fragment, which a recording shows.
 void requireOneFragment(const DebugOptions& options) {
   if (options.pixel.empty()) {
@@ -18,38 +23,13 @@ void requireOneFragment(const DebugOptions& options) {
   }
 }
 
-// How a thread of a stage is named on the command line.
-const char* threadOptions(session::Stage stage) {
-  switch (stage) {
-    case session::Stage::vertex:
-      return "--vertex N [--instance M]";
-    case session::Stage::tess_control:
-    case session::Stage::tess_eval:
-      return "--primitive N --vertex M";
-    case session::Stage::geometry:
-      return "--primitive N [--invocation M]";
-    case session::Stage::compute:
-      return "--invocation X,Y,Z";
-    case session::Stage::fragment:
-      break;
-  }
-  return "--pixel X,Y";
-}
-
-void requireFitting(session::Stage stage, bool given, bool fits, const std::string& option) {
-  if (!given || fits) return;
-  throw session::Error(session::Outcome::usage, option + " names no thread of the " +
-                                                    session::stageName(stage) + " stage; " +
-                                                    threadOptions(stage) + " does");
-}
-
 int run(const Common& common, const DebugOptions& options) {
   const session::Stage stage = selectedStage(common);
-  const bool chosen = chosenThread(stage, options).has_value();
+  const bool chosen = chosenThread(stage, options, followsPixels(stage, options)).has_value();
   const bool has_thread = chosen || !options.pixel.empty();
   if (options.at.empty() && !has_thread) {
     throw session::Error(session::Outcome::usage, std::string("say which thread with ") +
-                                                      threadOptions(stage) +
+                                                      threadSyntax(stage) +
                                                       ", or which place with --at LINE --print NAMES");
   }
   if (options.at.empty() && !(options.print.empty() && options.image.empty() && options.scatter.empty() &&
@@ -75,74 +55,20 @@ int run(const Common& common, const DebugOptions& options) {
 
 }  // namespace
 
-std::optional<session::ThreadName> chosenThread(session::Stage stage, const DebugOptions& options) {
-  using session::Stage;
-  const bool patches = stage == Stage::tess_control || stage == Stage::tess_eval;
-  const bool whole_run = options.at.empty() && options.hit < 0;
-  requireFitting(stage, !options.pixel.empty(),
-                 stage == Stage::fragment || (whole_run && stage != Stage::compute), "--pixel");
-  requireFitting(stage, options.vertex >= 0, stage == Stage::vertex || patches, "--vertex");
-  requireFitting(stage, options.instance >= 0, stage == Stage::vertex || stage == Stage::geometry || patches,
-                 "--instance");
-  requireFitting(stage, options.primitive >= 0, patches || stage == Stage::geometry, "--primitive");
-  requireFitting(stage, !options.invocation.empty(), stage == Stage::geometry || stage == Stage::compute,
-                 "--invocation");
-  const int instance = std::max(options.instance, 0);
-  if (stage == Stage::vertex && options.vertex >= 0)
-    return session::ThreadName{{"vertex", options.vertex}, {"instance", instance}};
-  if (patches && options.primitive >= 0)
-    return session::ThreadName{
-        {"primitive", options.primitive}, {"vertex", std::max(options.vertex, 0)}, {"repeat", instance}};
-  if (stage == Stage::compute && !options.invocation.empty()) {
-    std::vector<int> at = parseIntegers(options.invocation, "--invocation", 1, 3);
-    at.resize(3);
-    return session::ThreadName{{"x", at[0]}, {"y", at[1]}, {"z", at[2]}};
-  }
-  if (stage == Stage::geometry && options.primitive >= 0) {
-    const int invocation =
-        options.invocation.empty() ? 0 : parseIntegers(options.invocation, "--invocation", 1, 1)[0];
-    return session::ThreadName{
-        {"primitive", options.primitive}, {"invocation", invocation}, {"repeat", instance}};
-  }
-  return std::nullopt;
-}
-
 void addDebug(CLI::App& app, Common& common, Action& action) {
   CLI::App* command =
       app.add_subcommand("debug", "one thread's whole run, or the values at a place for all threads");
   auto options = std::make_shared<DebugOptions>();
   addCommonOptions(*command, common);
   addSelectionOptions(*command, common);
-  command
-      ->add_option(
-          "--pixel", options->pixel,
-          "the fragment on this pixel, from the lower left; with --stage vertex or tess-control: the runs "
-          "that it comes from")
-      ->type_name("X,Y");
+  addThreadOptions(
+      *command, *options,
+      "the fragment on this pixel, from the lower left; with --stage vertex or tess-control: the "
+      "runs that it comes from");
   command
       ->add_option("--hit", options->hit,
                    "which fragment, if the draw has several on the pixel; default the visible one")
       ->type_name("N");
-  command
-      ->add_option("--vertex", options->vertex,
-                   "with --stage vertex: gl_VertexID; tess-control: gl_InvocationID; tess-eval: which of the "
-                   "patch's generated vertices")
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option(
-          "--instance", options->instance,
-          "with --stage vertex: gl_InstanceID; geometry, tess-control, tess-eval: which of the threads "
-          "with the same numbers ('repeat'); default 0")
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--primitive", options->primitive, "with --stage geometry, tess-control, tess-eval")
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--invocation", options->invocation,
-                   "with --stage compute: gl_GlobalInvocationID; geometry: gl_InvocationID")
-      ->type_name("X,Y,Z");
   command->add_option("--at", options->at, "a place in the source: before the statement there")
       ->type_name("LINE[:COL]");
   command->add_flag("--after", options->after,

@@ -8,15 +8,13 @@
 
 #include "cli/common.h"
 #include "cli/fragment_options.h"
+#include "cli/thread_options.h"
 #include "session/thread_values.h"
 
 namespace shadestep::cli {
 
-struct DebugOptions {
-  std::string pixel;
+struct DebugOptions : ThreadOptions {
   int hit = -1;
-  int vertex = -1, instance = -1, primitive = -1;
-  std::string invocation;
   std::string at;
   std::string iteration;
   std::string call;
@@ -28,10 +26,6 @@ struct DebugOptions {
   bool let_run = false;
   FragmentOptions fragments;
 };
-
-// The thread that the options name by its identity, as the selected stage tells its threads apart; nothing if
-// they name none. Throws usage for options of another stage.
-std::optional<session::ThreadName> chosenThread(session::Stage, const DebugOptions&);
 
 // The whole run of the thread on --pixel, or, of other stages, of the one chosen.
 int debugThread(session::Session&, const Common&, const DebugOptions&);

@@ -216,7 +216,7 @@ std::string asCsv(const ThreadRun& run) {
 
 ThreadRun follow(session::Session& session, const DebugOptions& options) {
   if (session.stage() != session::Stage::fragment)
-    return session::followThread(session, chosenThread(session.stage(), options).value());
+    return session::followThread(session, chosenThread(session.stage(), options, true).value());
   const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
   const int x = pixel[0], y = pixel[1];
   const session::Plan plan = session::planByName(options.plan).value_or(session::Plan::automatic);

@@ -45,26 +45,14 @@ struct Picked {
   std::string name;  // for a person
 };
 
-std::string identityText(const ThreadValues& threads, std::size_t thread) {
-  std::string text;
-  for (const WatchedValues& one : threads.identity)
-    text += (text.empty() ? "" : ", ") + one.name + " " + session::formatValue(one.valueAt(thread));
-  return text;
-}
-
 std::optional<Picked> pickedBy(session::Session& session, const ThreadValues& threads,
                                const DebugOptions& options) {
   if (!options.pixel.empty())
     return Picked{pixelIndex(session, options.pixel), "at_pixel", "pixel " + options.pixel};
-  const auto wanted = chosenThread(session.stage(), options);
+  const auto wanted = chosenThread(session.stage(), options, false);
   if (!wanted) return std::nullopt;
-  const auto found = threads.find(*wanted);
-  if (!found) {
-    throw session::Error(session::Outcome::nothing_matches,
-                         "the draw runs no such thread; there are " + withThousands(threads.launched) +
-                             ", the last of them " + identityText(threads, threads.marks.size() - 1));
-  }
-  return Picked{*found, "at_thread", identityText(threads, *found)};
+  const std::size_t found = session::requireThread(threads, *wanted);
+  return Picked{found, "at_thread", identityText(threads, found)};
 }
 
 Json asJson(const ThreadValues& threads, const std::optional<Picked>& picked) {

@@ -19,14 +19,14 @@ struct Options {
   int line = 0;
   std::string image;
   std::string iterations_image;
-  std::string csv;
+  std::string csv, threads_csv;
   std::string compare;
   std::string label = "this run";
   std::string compare_label = "compared run";
   FragmentOptions fragments;
 };
 
-Json asJson(const LoopsReport& report) {
+Json asJson(const LoopsReport& report, session::Stage stage) {
   Json loops = Json::array();
   for (const LoopReport& loop : report.loops) {
     Json one;
@@ -43,6 +43,7 @@ Json asJson(const LoopsReport& report) {
     loops.push_back(std::move(one));
   }
   Json document;
+  document["stage"] = session::stageName(stage);
   document["loops"] = std::move(loops);
   document["check"] = toJson(report.check);
   return document;
@@ -103,6 +104,21 @@ std::string asCsv(const LoopsReport& report, const std::optional<profiler::LoopR
   return csv;
 }
 
+// A row per thread: who it is, and the iterations of every loop.
+std::string threadsCsv(const LoopsReport& report) {
+  session::ThreadValues threads;
+  threads.width = report.width;
+  threads.height = report.height;
+  threads.marks = report.marks;
+  threads.identity = report.identity;
+  for (const LoopReport& loop : report.loops) {
+    session::WatchedValues values{"line" + std::to_string(loop.line), {}, 1, loop.iterations};
+    values.type.basic = frontend::Basic::uint_;
+    threads.values.push_back(std::move(values));
+  }
+  return session::asCsv(threads);
+}
+
 void writeIterationsImage(const std::string& path, const LoopsReport& report, const LoopReport& loop) {
   profiler::ValueImage image;
   image.width = report.width;
@@ -148,7 +164,9 @@ void printText(const LoopsReport& report) {
 }
 
 int run(const Common& common, const Options& options) {
-  requireFragmentStage(common, "loops");
+  if (selectedStage(common) != session::Stage::fragment && !options.iterations_image.empty())
+    throw session::Error(session::Outcome::usage,
+                         "--iterations-image shows fragments, which have a place; take --threads-csv F");
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   choose(session, options.fragments);
@@ -168,8 +186,10 @@ int run(const Common& common, const Options& options) {
     writeIterationsImage(common.inOut(options.iterations_image), report, shown);
   }
   if (!options.csv.empty()) profiler::writeFile(common.inOut(options.csv), asCsv(report, compared));
+  if (!options.threads_csv.empty())
+    profiler::writeFile(common.inOut(options.threads_csv), threadsCsv(report));
   if (common.json) {
-    print(asJson(report));
+    print(asJson(report, session.stage()));
   } else {
     printText(report);
   }
@@ -192,6 +212,8 @@ void addLoops(CLI::App& app, Common& common, Action& action) {
   command->add_option("--iterations-image", options->iterations_image, "iterations per thread as an image")
       ->type_name("F.png|F.exr");
   command->add_option("--csv", options->csv, "a row per iteration")->type_name("F");
+  command->add_option("--threads-csv", options->threads_csv, "a row per thread: the iterations of each loop")
+      ->type_name("F");
   command
       ->add_option("--compare", options->compare, "an earlier run's --json document, drawn beside this one")
       ->type_name("FILE");

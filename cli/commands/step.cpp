@@ -7,6 +7,7 @@
 
 #include "cli/common.h"
 #include "cli/fragment_options.h"
+#include "cli/thread_options.h"
 #include "session/stepper.h"
 #include "session/values.h"
 
@@ -16,8 +17,7 @@ namespace {
 using session::Position;
 using session::Stepper;
 
-struct Options {
-  std::string pixel;
+struct Options : ThreadOptions {
   std::string plan = "auto";
   FragmentOptions fragments;
 };
@@ -40,8 +40,8 @@ constexpr const char* kHelp =
 // What a command found, as a document; `asText` says the same to a person.
 class Dialogue {
  public:
-  Dialogue(session::Session& session, std::optional<std::size_t> pixel, session::Plan plan)
-      : stepper_(session, pixel, plan), pixel_(pixel) {}
+  Dialogue(session::Session& session, const std::optional<session::ThreadName>& thread, session::Plan plan)
+      : stepper_(session, thread, plan), picks_(thread) {}
 
   // Carries out a command; the empty one says where the threads are.
   Json carryOut(const std::string& line) {
@@ -126,7 +126,7 @@ class Dialogue {
     Json sides = Json::array();
     for (const session::TakenSide& way : stepper_.sides()) {
       Json side = {{"name", way.side.name}, {"threads", way.threads}};
-      if (pixel_) side["picked"] = way.mask[*pixel_] != 0;
+      if (picks_) side["picked"] = way.picked;
       sides.push_back(std::move(side));
     }
     json["sides"] = std::move(sides);
@@ -147,16 +147,17 @@ class Dialogue {
     Json json = {{"threads", {{"launched", threads.launched}, {"reached", threads.reached}}},
                  {"check", toJson(threads.check)},
                  {"check_text", describe(threads.check)}};
+    const std::optional<std::size_t> picked = stepper_.pickedIn(threads);
     Json list = Json::array();
     for (const session::WatchedValues& watched : threads.values) {
       Json one = {{"name", watched.name}, {"type", glslName(watched.type)}};
-      if (pixel_) one["picked"] = nullptr;
+      if (picks_) one["picked"] = nullptr;
       if (!watched.no_value.empty()) {
         one["no_value"] = watched.no_value;
-        if (pixel_) one["picked_text"] = "no value: " + watched.no_value;
-      } else if (pixel_ && threads.reachedAt(*pixel_)) {
-        one["picked"] = toJson(watched.valueAt(*pixel_));
-        one["picked_text"] = session::formatValue(watched.valueAt(*pixel_));
+        if (picks_) one["picked_text"] = "no value: " + watched.no_value;
+      } else if (picked && threads.reachedAt(*picked)) {
+        one["picked"] = toJson(watched.valueAt(*picked));
+        one["picked_text"] = session::formatValue(watched.valueAt(*picked));
       }
       Json components = Json::array();
       for (const auto& component : session::statistics(threads, watched)) {
@@ -184,10 +185,12 @@ class Dialogue {
                   {"true", choice.yes},
                   {"false", choice.no},
                   {"check", toJson(choice.outcome.check)}};
-      if (pixel_)
-        one["picked"] = choice.outcome.reachedAt(*pixel_)
-                            ? Json(*choice.outcome.values.front().at(*pixel_) != 0)
+      if (picks_) {
+        const std::optional<std::size_t> picked = stepper_.pickedIn(choice.outcome);
+        one["picked"] = picked && choice.outcome.reachedAt(*picked)
+                            ? Json(*choice.outcome.values.front().at(*picked) != 0)
                             : Json(nullptr);
+      }
       list.push_back(std::move(one));
     }
     return {{"choices", std::move(list)}};
@@ -215,7 +218,7 @@ class Dialogue {
   }
 
   Stepper stepper_;
-  std::optional<std::size_t> pixel_;
+  bool picks_;  // a thread is picked
 };
 
 // ---- for a person
@@ -312,7 +315,7 @@ void show(const Dialogue& dialogue, const Json& answer) {
 }
 
 // In JSON the whole dialogue is one document, printed at its end.
-void converse(Dialogue& dialogue, bool json) {
+void converse(Dialogue& dialogue, session::Stage stage, bool json) {
   const bool prompt = !json && isatty(STDIN_FILENO) != 0;
   Json steps = Json::array();
   const auto answer = [&](const std::string& line) {
@@ -333,22 +336,32 @@ void converse(Dialogue& dialogue, bool json) {
     else if (!line.empty())
       answer(line);
   }
-  if (json) print({{"steps", std::move(steps)}});
+  if (json) print({{"stage", session::stageName(stage)}, {"steps", std::move(steps)}});
+}
+
+// The thread that the options name, which must be there; nothing if they name none.
+std::optional<session::ThreadName> pickedThread(session::Session& session, const Options& options) {
+  if (!options.pixel.empty()) {
+    const int width = session.facts().width;
+    const auto pixel = static_cast<int>(pixelIndex(session, options.pixel));
+    return session::pixelName(pixel % width, pixel / width);
+  }
+  const std::optional<session::ThreadName> thread = chosenThread(session.stage(), options, false);
+  if (thread) session::requireThread(Stepper(session).look({}), *thread);
+  return thread;
 }
 
 int run(const Common& common, const Options& options) {
-  requireFragmentStage(common, "step");
+  chosenThread(selectedStage(common), options, false);  // throws before the work begins
   const std::optional<session::Plan> plan = session::planByName(options.plan);
   session::Session session(common.launchOptions());
   runToSelection(session, common);
   session.requireCapturable();
   choose(session, options.fragments);
   const std::string forced = describe(options.fragments);
-  if (!forced.empty()) std::cout << forced << "\n";
-  std::optional<std::size_t> pixel;
-  if (!options.pixel.empty()) pixel = pixelIndex(session, options.pixel);
-  Dialogue dialogue(session, pixel, plan.value_or(session::Plan::automatic));
-  converse(dialogue, common.json);
+  if (!forced.empty() && !common.json) std::cout << forced << "\n";
+  Dialogue dialogue(session, pickedThread(session, options), plan.value_or(session::Plan::automatic));
+  converse(dialogue, session.stage(), common.json);
   return 0;
 }
 
@@ -360,9 +373,7 @@ void addStep(CLI::App& app, Common& common, Action& action) {
   auto options = std::make_shared<Options>();
   addCommonOptions(*command, common);
   addSelectionOptions(*command, common);
-  command
-      ->add_option("--pixel", options->pixel, "the picked thread: its values are shown, its side is followed")
-      ->type_name("X,Y");
+  addThreadOptions(*command, *options, "the picked thread: its values are shown, its side is followed");
   command
       ->add_option(
           "--plan", options->plan,

@@ -205,23 +205,21 @@ session::Session& Debuggee::atDraw() {
 
 // ---- in the shader
 
-std::optional<std::size_t> Debuggee::pickedIndex() {
-  const session::DrawFacts& facts = session_->facts();
-  if (!pixel_ || pixel_->x >= facts.width || pixel_->y >= facts.height) return std::nullopt;
-  return static_cast<std::size_t>(pixel_->y) * static_cast<std::size_t>(facts.width) +
-         static_cast<std::size_t>(pixel_->x);
+std::optional<session::ThreadName> Debuggee::pickedThread() const {
+  if (!pixel_) return std::nullopt;
+  return session::pixelName(pixel_->x, pixel_->y);
 }
 
 session::Stepper& Debuggee::stepper() {
   session::Session& session = atDraw();
   session.requireCapturable();
-  if (!stepper_) stepper_ = std::make_unique<session::Stepper>(session, pickedIndex());
+  if (!stepper_) stepper_ = std::make_unique<session::Stepper>(session, pickedThread());
   return *stepper_;
 }
 
 void Debuggee::pick(std::optional<Pixel> pixel) {
   pixel_ = pixel;
-  if (stepper_) stepper_->pick(pickedIndex());
+  if (stepper_) stepper_->pick(pickedThread());
 }
 
 Place Debuggee::restartShader() {

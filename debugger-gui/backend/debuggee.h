@@ -85,7 +85,7 @@ class Debuggee {
   session::Stepper& stepper();
   session::Session& atDraw();
   Place place();
-  std::optional<std::size_t> pickedIndex();
+  std::optional<session::ThreadName> pickedThread() const;
 
   session::LaunchOptions launch_;
   std::unique_ptr<session::Session> session_;

@@ -75,9 +75,8 @@ Place Debuggee::place() {
                   statement.kind == frontend::StatementKind::while_ ||
                   statement.kind == frontend::StatementKind::do_while;
   place.ways = std::make_shared<const std::vector<session::TakenSide>>(at.sides());
-  const auto picked = pickedIndex();
   for (const session::TakenSide& way : *place.ways)
-    place.sides.push_back({way.side.name, way.threads, picked && way.mask[*picked] != 0});
+    place.sides.push_back({way.side.name, way.threads, way.picked});
   return place;
 }
 

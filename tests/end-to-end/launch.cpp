@@ -85,6 +85,33 @@ Finished Scratch::shadestep(std::vector<std::string> arguments,
   return run(arguments);
 }
 
+Json Scratch::step(std::vector<std::string> arguments, const std::vector<std::string>& program,
+                   const std::vector<std::string>& commands) const {
+  std::ofstream script(file("commands"));
+  for (const std::string& command : commands) script << command << "\n";
+  script.close();
+  arguments.insert(arguments.begin(), {binary("shadestep"), "step", "--json"});
+  arguments.emplace_back("--");
+  arguments.insert(arguments.end(), program.begin(), program.end());
+  std::string line;
+  for (const std::string& word : arguments) line += quoted(word) + " ";
+  const Finished run = this->run({"sh", "-c", line + "< commands"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  Json steps = run.json()["steps"];
+  EXPECT_EQ(steps.size(), commands.size() + 1);
+  steps.erase(0);
+  return steps;
+}
+
+std::string place(const Json& answer) {
+  std::string text = answer["function"].get<std::string>() + " " + std::to_string(answer["line"].get<int>());
+  for (const Json& iteration : answer["iteration"]) text += "[" + iteration.dump() + "]";
+  if (answer.contains("returned"))
+    text += " after " + std::to_string(answer["returned"]["column"].get<int>());
+  if (answer.contains("sides")) text += "?";
+  return text;
+}
+
 std::string binary(const std::string& name) {
   return std::string(SHADESTEP_TEST_BINARIES) + "/" + name;
 }

@@ -31,10 +31,18 @@ class Scratch {
   Finished run(const std::vector<std::string>& command) const;
   // `shadestep ARGUMENTS... -- PROGRAM...`
   Finished shadestep(std::vector<std::string> arguments, const std::vector<std::string>& program) const;
+  // `shadestep step --json ARGUMENTS...` with these commands: its answers to them, without the first one,
+  // which says where it began.
+  Json step(std::vector<std::string> arguments, const std::vector<std::string>& program,
+            const std::vector<std::string>& commands) const;
 
  private:
   std::filesystem::path path_;
 };
+
+// Of an answer of `step`: "main 12[0] after 31?", the function, line and iterations, the column of the call
+// that has returned, and a question mark at a branch.
+std::string place(const Json& answer);
 
 // An executable of this build.
 std::string binary(const std::string& name);

@@ -33,31 +33,12 @@ class Step : public testing::TestWithParam<std::string> {
   // The answers to the commands.
   Json answers(const std::vector<std::string>& commands) {
     std::ofstream(scratch_.file("shader.frag")) << kShader;
-    std::ofstream script(scratch_.file("commands"));
-    for (const std::string& command : commands) script << command << "\n";
-    script.close();
-    const Finished run =
-        scratch_.run({"sh", "-c",
-                      binary("shadestep") + " step --json --pixel 5,7 --plan " + GetParam() + " -- " +
-                          binary("programs/shader-file") + " shader.frag < commands"});
-    EXPECT_EQ(run.status, 0) << run.err;
-    Json steps = run.json()["steps"];
-    EXPECT_EQ(steps.size(), commands.size() + 1);
-    steps.erase(0);  // where it began
-    return steps;
+    return scratch_.step({"--pixel", "5,7", "--plan", GetParam()},
+                         {binary("programs/shader-file"), "shader.frag"}, commands);
   }
 
   const Scratch scratch_;
 };
-
-std::string place(const Json& answer) {
-  std::string text = answer["function"].get<std::string>() + " " + std::to_string(answer["line"].get<int>());
-  for (const Json& iteration : answer["iteration"]) text += "[" + iteration.dump() + "]";
-  if (answer.contains("returned"))
-    text += " after " + std::to_string(answer["returned"]["column"].get<int>());
-  if (answer.contains("sides")) text += "?";
-  return text;
-}
 
 // The range of the first value over all threads.
 std::pair<int, int> range(const Json& answer) {
