@@ -4,6 +4,7 @@
 
 #include "instrumenter/constructs/discard.h"
 #include "instrumenter/constructs/fragment_outputs.h"
+#include "instrumenter/constructs/geometry_output.h"
 #include "instrumenter/constructs/main.h"
 #include "instrumenter/helpers/helpers.h"
 #include "instrumenter/storage.h"
@@ -61,17 +62,22 @@ void Attachments::chooseAttachments(const Target& target) {
 void Attachments::chooseFeedbackOrList(const Target& target) {
   const frontend::Shader& shader = draft_.shader();
   const bool bits = hasBitEncoding(shader, target);
-  if (shader.stage == frontend::Stage::vertex && target.feedback_components > 0) {
+  const bool list = storage_ && bits;
+  const bool prefers_feedback = shader.stage == frontend::Stage::vertex || !list;
+  if (prefers_feedback && target.feedback_components > 0) {
     layout_.carrier = shader.version >= 130 && bits ? Carrier::uint_feedback : Carrier::float_feedback;
     capacity_ = target.feedback_components / 4 * 4;
-  } else if (storage_ && bits) {
+  } else if (list) {
     layout_.carrier = Carrier::list;
     capacity_ = kWidestListed;
   } else {
-    failure_ = "Values of this stage need " +
-               (storage_ ? std::string("GL_ARB_shader_bit_encoding, which this driver lacks")
-                         : noStorage(shader, target)) +
-               ".";
+    failure_ =
+        "Values of this stage need " +
+        (storage_ ? std::string("GL_ARB_shader_bit_encoding, which this driver lacks")
+                  : noStorage(shader, target)) +
+        (shader.stage == frontend::Stage::tess_control
+             ? "; 'debug' shows what --stage vertex gives them and what --stage tess-eval makes of them."
+             : ".");
   }
   for (const Identity& one : identityOf(shader, target)) {
     Type number;
@@ -81,6 +87,13 @@ void Attachments::chooseFeedbackOrList(const Target& target) {
   }
   layout_.identity.swap(layout_.fields);
   first_word_ = layout_.words;
+}
+
+std::string Attachments::place() const {
+  if (layout_.carrier == Carrier::list)
+    return "the " + std::to_string(kWidestListed) + " words that are captured of a thread";
+  if (feedback()) return "what transform feedback captures of a thread beside the outputs that are compared";
+  return "the draw buffers that the program leaves free";
 }
 
 bool Attachments::add(const std::string& name, const Type& type) {
@@ -156,7 +169,12 @@ std::vector<std::string> Attachments::valueWords(const std::string& value, const
 }
 
 void Attachments::frame(const std::string& start, const std::string& end) {
-  wrapMain(draft_, start, end + write());
+  const bool points = feedback() && draft_.shader().stage == frontend::Stage::geometry;
+  if (points) {
+    declarePoints(draft_, 1);
+    dropEmits(draft_);
+  }
+  wrapMain(draft_, start, end + write() + (points ? emitPoint() : ""));
   if (!storage_ || !draft_.shader().traits.uses_discard) return;
   layout_.discarded_block = draft_.name("Discarded");
   layout_.discarded_words = 4 * (1 + layout_.attachments());

@@ -1,7 +1,8 @@
 // Captured words on their way out: buffered in globals while the shader runs, written by the new main at its
 // end (thesis 7.1.4: outputs may be read by the shader, so they are written last). Of fragments they leave
 // through colour attachments, of a vertex shader through outputs for transform feedback, of all other stages
-// through a storage block.
+// through a storage block. Where the driver has none, those of evaluation and geometry shaders leave through
+// transform feedback, too: the latter emit one point per thread instead of their own vertices.
 //
 //   uvec4 sd_words0;  out uvec4 sd_capture0;          (or vec4 and gl_FragData[first_frag_data])
 //   ... sd_words0 = uvec4(3u, floatBitsToUint(a.x), floatBitsToUint(a.y), 0u) ...
@@ -25,8 +26,10 @@ class Attachments {
   Attachments(Draft& draft, const Target& target);
   const std::string& failure() const { return failure_; }
 
-  // Makes room for a value; false if the draw buffers do not hold it.
+  // Makes room for a value; false if `place` does not hold it.
   bool add(const std::string& name, const frontend::Type& type);
+  // What values have to fit into, for the user: "the draw buffers that the program leaves free".
+  std::string place() const;
   // Ends the fields of one probe and hands out their layout; what is added next goes over the same words.
   AttachmentLayout overlay();
   // Declares what the layouts so far need. To be called once, after the last `add`.
@@ -47,6 +50,9 @@ class Attachments {
   // GLSL statements that write the buffered words to the outputs.
   std::string write() const;
 
+  bool feedback() const {
+    return layout_.carrier == Carrier::uint_feedback || layout_.carrier == Carrier::float_feedback;
+  }
   // With overlays: the words of the widest, and the fields of none.
   const AttachmentLayout& layout() const { return layout_; }
 

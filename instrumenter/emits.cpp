@@ -1,12 +1,16 @@
-// What a geometry shader emits: every vertex with the values of the outputs, appended to a list, in one pass
-// over the program's own emits (thesis 7.1.3 needs two, of transform feedback).
+// What a geometry shader emits: every vertex with the values of the outputs, in one pass over the program's
+// own emits (thesis 7.1.3 needs two, of transform feedback).
 //
 // EmitVertex() becomes sd_emit_vertex(), which lists the vertex and then emits it; EmitStreamVertex(1)
-// becomes (sd_emit(1), EmitStreamVertex(1)); EndPrimitive and EndStreamPrimitive likewise.
+// becomes (sd_emit(1), EmitStreamVertex(1)); EndPrimitive and EndStreamPrimitive likewise. Where there are no
+// storage buffers, a point is emitted for each vertex, and one at the thread's end, and nothing of the
+// shader's own: transform feedback lists them.
 #include <algorithm>
 
 #include "instrumenter/attachments.h"
 #include "instrumenter/constructs/declaration.h"
+#include "instrumenter/constructs/geometry_output.h"
+#include "instrumenter/constructs/main.h"
 #include "instrumenter/storage.h"
 
 namespace shadestep::instrumenter {
@@ -29,7 +33,8 @@ std::string argumentOf(const Shader& shader, TokenIndex open, TokenIndex close) 
   return text;
 }
 
-void replaceEmits(Draft& draft) {
+// `points`: nothing of the shader's own is emitted.
+void replaceEmits(Draft& draft, bool points) {
   const Shader& shader = draft.shader();
   for (TokenIndex i = 0; i + 1 < static_cast<TokenIndex>(shader.tokens.size()); ++i) {
     if (textAt(shader, i + 1) != "(") continue;
@@ -39,9 +44,11 @@ void replaceEmits(Draft& draft) {
     const bool emits = name == "EmitStreamVertex";
     const TokenIndex close = matchingBracket(shader, i + 1);
     if ((!emits && name != "EndStreamPrimitive") || close == frontend::kNone) continue;
-    draft.edits.wrap(
-        {i, close},
-        "(" + draft.name(emits ? "emit(" : "end_strip(") + argumentOf(shader, i + 1, close) + "), ", ")");
+    const std::string own = draft.name(emits ? "emit" : "end_strip");
+    if (points)
+      draft.edits.replace(i, own);
+    else
+      draft.edits.wrap({i, close}, "(" + own + "(" + argumentOf(shader, i + 1, close) + "), ", ")");
   }
 }
 
@@ -51,14 +58,25 @@ std::string countersOf(const Draft& draft) {
          draft.name("emit_vertex();\nvoid ") + draft.name("end_primitive();");
 }
 
+// The most words of a point that may be emitted so often (OpenGL 4.6, table 23.60; the least that a driver
+// offers).
+int mostWords(int points) {
+  constexpr int kTotalComponents = 1024;
+  return kTotalComponents / points / 4 * 4;
+}
+
 }  // namespace
 
 Result<EmitsShader> instrumentEmits(const Shader& shader, const Target& target) {
   Draft draft(shader);
-  std::string reason = noStorage(shader, target);
-  if (!reason.empty()) return Failure{"What a geometry shader emits is listed by " + reason + "."};
   Attachments attachments(draft, target);
-  if (!attachments.failure().empty()) return Failure{attachments.failure()};
+  const bool points = attachments.feedback();
+  const int most = emitLimits(shader).max_vertices;
+  std::string reason = attachments.failure();
+  if (!reason.empty()) return Failure{"What a geometry shader emits cannot be listed. " + reason};
+  if (points && most < 0)
+    return Failure{"What a geometry shader emits is listed by " + noStorage(shader, target) +
+                   ", or for max_vertices that is a plain number."};
 
   EmitsShader emits;
   Type number;
@@ -69,24 +87,33 @@ Result<EmitsShader> instrumentEmits(const Shader& shader, const Target& target) 
   std::vector<std::string> values = {thread, "stream", strips + "[stream]", vertices};
   for (const frontend::VariableId id : stageOutputs(shader)) {
     const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(id)];
-    if (frontend::wordCount(variable.type) > 0 && attachments.add(variable.name, variable.type))
+    const int words = frontend::wordCount(variable.type);
+    const bool too_many = points && attachments.layout().words + words > mostWords(most + 1);
+    if (words > 0 && !too_many && attachments.add(variable.name, variable.type))
       values.push_back(variable.name);
     else
       emits.left_out.push_back(variable.name);
   }
   attachments.declare();
   draft.declare(countersOf(draft));
-  const std::vector<std::string> at_end = {thread, "0", "0", vertices};
-  attachments.frame("  " + thread + " = atomicAdd(" + draft.name("started") + ", 1);\n  " + vertices +
-                        " = 0;\n  for (int i = 0; i < 4; ++i) " + strips + "[i] = 0;\n",
-                    "  " + attachments.assign(kLaunched, at_end) + ";\n");
-  draft.append("int " + draft.name("emit(int stream) {\n  ") +
-               attachments.assign(kLaunched | kReached, values) + ";\n" + attachments.write() +
-               "  return ++" + vertices + ";\n}");
+  const std::string start = points ? "0" : "atomicAdd(" + draft.name("started") + ", 1)";
+  const std::string before = "  " + thread + " = " + start + ";\n  " + vertices +
+                             " = 0;\n  for (int i = 0; i < 4; ++i) " + strips + "[i] = 0;\n";
+  const std::string after = "  " + attachments.assign(kLaunched, {thread, "0", "0", vertices}) + ";\n";
+  std::string list = attachments.assign(kLaunched | kReached, values) + ";\n" + attachments.write();
+  if (points) {
+    declarePoints(draft, most + 1);
+    wrapMain(draft, before, after + attachments.write() + emitPoint());
+    list = "if (" + vertices + " < " + std::to_string(most) + ") {\n  " + list + emitPoint() + "  }\n";
+  } else {
+    attachments.frame(before, after);
+  }
+  draft.append("int " + draft.name("emit(int stream) {\n  ") + list + "  return ++" + vertices + ";\n}");
   draft.append("int " + draft.name("end_strip(int stream) { return ++") + strips + "[stream]; }");
-  draft.append("void " + draft.name("emit_vertex() { ") + draft.name("emit(0); EmitVertex(); }"));
-  draft.append("void " + draft.name("end_primitive() { ") + draft.name("end_strip(0); EndPrimitive(); }"));
-  replaceEmits(draft);
+  const std::string emit = points ? "" : " EmitVertex();", end = points ? "" : " EndPrimitive();";
+  draft.append("void " + draft.name("emit_vertex() { ") + draft.name("emit(0);") + emit + " }");
+  draft.append("void " + draft.name("end_primitive() { ") + draft.name("end_strip(0);") + end + " }");
+  replaceEmits(draft, points);
 
   auto text = draft.finish();
   if (auto* failure = std::get_if<Failure>(&text)) return *failure;

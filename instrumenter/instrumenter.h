@@ -37,8 +37,10 @@ struct Target {
   bool query_lod = false;        // GL_ARB_texture_query_lod
   bool es_draw_buffers = false;  // GL_EXT_draw_buffers: several outputs in GLSL ES 1.00
   int max_draw_buffers = 8;
-  int used_draw_buffers = 1;    // colour outputs that the program's own framebuffer uses
-  int feedback_components = 0;  // that transform feedback has room for beside the original outputs
+  int used_draw_buffers = 1;  // colour outputs that the program's own framebuffer uses
+  // That transform feedback of this stage's last words has room for beside the original outputs; of a
+  // geometry shader without them. 0: there is none.
+  int feedback_components = 0;
   bool gpu_shader4 = false;     // GL_EXT_gpu_shader4: gl_VertexID and gl_InstanceID below GLSL 1.30
   bool draw_instanced = false;  // GL_ARB_draw_instanced: gl_InstanceIDARB
 };
@@ -187,7 +189,8 @@ struct EmitsShader {
 };
 // The first fields, each an int. `thread` tells threads of the same identity apart: their order of start.
 // `stream`, `strip` (how often the thread ended a primitive of the stream before) are 0 where a thread ends;
-// `vertices`: how many it emitted before, or in all.
+// `vertices`: how many it emitted before, or in all. By transform feedback `thread` is 0: there the threads
+// lie one behind the other, each with its end, and what it emits beyond max_vertices is not listed.
 enum EmitField { kEmitThread, kEmitStream, kEmitStrip, kEmitVertices, kEmitFields };
 Result<EmitsShader> instrumentEmits(const frontend::Shader&, const Target&);
 

@@ -31,10 +31,8 @@ class Measures {
     Type type;
     type.basic = frontend::Basic::uint_;
     if (!attachments_.add(name, type) && failure_.empty())
-      failure_ =
-          "The free draw buffers do not hold so many counts at once; ask for fewer (there was no room from "
-          "'" +
-          name + "' on).";
+      failure_ = "So many counts do not fit into " + attachments_.place() +
+                 " at once; ask for fewer (there was no room from '" + name + "' on).";
     values_.push_back(value);
   }
   // The same with a counter of its own, which starts at zero.

@@ -12,15 +12,14 @@ namespace {
 // Takes as many watches as fit; says why if not even one does.
 std::string addFields(Attachments& attachments, const Shader& shader, const Probe& probe) {
   if (probe.outcome && !attachments.add("", outcomeType(shader, probe)))
-    return "The draw buffers have no room for the outcome of the condition.";
+    return "The outcome of the condition does not fit into " + attachments.place() + ".";
   for (const frontend::Watch& watch : probe.watches) {
     if (attachments.add(watch.expression, watch.type)) continue;
     if (!attachments.layout().fields.empty()) break;
     const std::string value = "'" + watch.expression + "' (" + frontend::glslName(watch.type) + ")";
     return frontend::wordCount(watch.type) == 0
                ? value + " holds no value that can be shown; look at what is read from it."
-               : value +
-                     " does not fit into the draw buffers that the program leaves free; watch a part of it.";
+               : value + " does not fit into " + attachments.place() + "; watch a part of it.";
   }
   return "";
 }

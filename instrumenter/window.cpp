@@ -21,12 +21,11 @@ std::string misplaced(const Shader& shader, const std::vector<Probe>& probes) {
 
 std::string addFields(Attachments& attachments, const Shader& shader, const Probe& probe) {
   if (probe.outcome && !attachments.add("", outcomeType(shader, probe)))
-    return "The draw buffers have no room for the outcome of a condition.";
+    return "The outcome of a condition does not fit into " + attachments.place() + ".";
   for (const frontend::Watch& watch : probe.watches) {
     if (!attachments.add(watch.expression, watch.type))
-      return "'" + watch.expression + "' (" + frontend::glslName(watch.type) +
-             ") does not fit into the draw buffers beside the other values of its probe; watch fewer at "
-             "once.";
+      return "'" + watch.expression + "' (" + frontend::glslName(watch.type) + ") does not fit into " +
+             attachments.place() + " beside the other values of its probe; watch fewer at once.";
   }
   return "";
 }

@@ -23,7 +23,13 @@ struct Thread {
 class Reader {
  public:
   Reader(const Captured& captured, GeometryEmits& emits)
-      : layout_(captured.layout), threads_(captured.threads), emits_(emits) {}
+      : layout_(captured.layout),
+        threads_(captured.threads),
+        in_order_(captured.layout.carrier != instrumenter::Carrier::list),
+        emits_(emits) {
+    for (const Field& field : layout_.identity) identity_.emplace_back(layout_, field);
+    for (const Field& field : layout_.fields) fields_.emplace_back(layout_, field);
+  }
 
   void read() {
     for (std::size_t i = instrumenter::kEmitFields; i < layout_.fields.size(); ++i)
@@ -50,21 +56,25 @@ class Reader {
   }
 
  private:
-  int number(const Field& field, const std::uint32_t* entry) const {
-    return static_cast<std::int32_t>(entry[field.first_word]);
+  static int number(const instrumenter::FieldDecoder& field, const std::uint32_t* entry) {
+    std::uint32_t word = 0;
+    field.decode(entry, &word);
+    return static_cast<std::int32_t>(word);
   }
   int number(instrumenter::EmitField field, const std::uint32_t* entry) const {
-    return number(layout_.fields[field], entry);
+    return number(fields_[field], entry);
   }
 
   void sort(const std::uint32_t* entry) {
-    Thread& thread = by_start_[number(instrumenter::kEmitThread, entry)];
-    thread.primitive = number(layout_.identity.at(0), entry);
-    thread.invocation = layout_.identity.size() > 1 ? number(layout_.identity[1], entry) : 0;
-    if ((instrumenter::decodeMark(layout_, entry) & instrumenter::kReached) != 0)
+    Thread& thread = by_start_[in_order_ ? ended_ : number(instrumenter::kEmitThread, entry)];
+    thread.primitive = number(identity_.at(0), entry);
+    thread.invocation = identity_.size() > 1 ? number(identity_[1], entry) : 0;
+    if ((instrumenter::decodeMark(layout_, entry) & instrumenter::kReached) != 0) {
       thread.emits.push_back(entry);
-    else
+    } else {
       thread.vertices = number(instrumenter::kEmitVertices, entry);
+      ++ended_;
+    }
   }
 
   GeometryRun run(Thread thread) const {
@@ -72,11 +82,13 @@ class Reader {
       return number(instrumenter::kEmitVertices, a) < number(instrumenter::kEmitVertices, b);
     };
     std::sort(thread.emits.begin(), thread.emits.end(), order);
-    if (thread.emits.size() != static_cast<std::size_t>(thread.vertices))
+    const int listed = in_order_ ? std::min(thread.vertices, emits_.max_vertices) : thread.vertices;
+    if (thread.emits.size() != static_cast<std::size_t>(listed))
       throw Error(Outcome::failed, "the list of emitted vertices is not complete; report this as a bug");
     GeometryRun run;
     run.invocation = thread.invocation;
     run.vertices = thread.vertices;
+    run.beyond_limit = thread.vertices - listed;
     std::map<std::pair<int, int>, OutputPrimitive> outputs;  // by stream and strip
     for (const std::uint32_t* entry : thread.emits) {
       if (emits_.max_vertices >= 0 && number(instrumenter::kEmitVertices, entry) >= emits_.max_vertices) {
@@ -102,14 +114,20 @@ class Reader {
 
   EmittedVertex vertex(const std::uint32_t* entry) const {
     EmittedVertex vertex;
-    for (std::size_t i = instrumenter::kEmitFields; i < layout_.fields.size(); ++i)
-      vertex.values.push_back(instrumenter::decode(layout_, layout_.fields[i], entry));
+    for (std::size_t i = instrumenter::kEmitFields; i < fields_.size(); ++i) {
+      instrumenter::Value value{layout_.fields[i].type, std::vector<std::uint32_t>(fields_[i].words())};
+      fields_[i].decode(entry, value.words.data());
+      vertex.values.push_back(std::move(value));
+    }
     return vertex;
   }
 
   const instrumenter::AttachmentLayout& layout_;
   const ThreadWords& threads_;
+  bool in_order_;  // thread by thread, each with its end; else as `thread` says
+  int ended_ = 0;
   GeometryEmits& emits_;
+  std::vector<instrumenter::FieldDecoder> identity_, fields_;
   std::map<int, Thread> by_start_;
   std::map<std::pair<int, int>, InputPrimitive> inputs_;  // by primitive and repeat
   int repeat_ = 0;

@@ -14,10 +14,10 @@ struct FragmentOrigin {
   std::vector<ThreadName> threads;  // in the order of the primitive's vertices
 };
 
-// Of the visible fragment on a pixel: its primitive's vertices (Stage::vertex), or the runs on its patch
-// (Stage::tess_control). Selects that stage. Throws nothing_matches where the draw shows no fragment,
-// cannot_debug where gl_PrimitiveID does not tell: below GLSL 1.50, with a geometry shader, for several
-// instances, for draws that restart their primitives or are several in one.
+// Of the visible fragment on a pixel: the vertices of its primitive or its patch (Stage::vertex), or the runs
+// on its patch (Stage::tess_control). Selects that stage. Throws nothing_matches where the draw shows no
+// fragment, cannot_debug where gl_PrimitiveID does not tell: below GLSL 1.50, with a geometry shader, for
+// several instances, for draws that restart their primitives or are several in one.
 FragmentOrigin originOf(Session&, int x, int y, Stage);
 
 }  // namespace shadestep::session

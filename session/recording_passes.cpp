@@ -7,8 +7,9 @@ namespace shadestep::session {
 namespace {
 
 constexpr std::uint32_t kFirstRoomPerThread = 1 << 16;  // words a recorded thread may write at the first try
-constexpr std::uint32_t kThreadsPerPixel = 16;          // fragments expected at most on one pixel, first try
-constexpr std::uint32_t kThreadsPerIdentity = 4;        // a vertex may be shaded several times
+constexpr std::uint32_t kLeastRoomPerThread = 1 << 10;
+constexpr std::uint32_t kThreadsPerPixel = 16;    // fragments expected at most on one pixel, first try
+constexpr std::uint32_t kThreadsPerIdentity = 4;  // a vertex may be shaded several times
 
 }  // namespace
 
@@ -74,13 +75,19 @@ Session::Recorded Session::recordWith(const PreparedRecording& prepared,
     recorded.recording = instrumenter::decodeRecording(layout, recorded.execution.storage);
     if (!recorded.recording.error.empty()) throw Error(Outcome::failed, recorded.recording.error);
 
-    std::uint64_t wanted = 0;
+    std::uint64_t longest = 0;
+    bool complete = recorded.recording.started <= threads;
     for (const auto& thread : recorded.recording.threads) {
-      if (!thread.complete) wanted = std::max<std::uint64_t>(wanted, thread.wanted);
+      longest = std::max<std::uint64_t>(longest, thread.wanted);
+      complete = complete && thread.complete;
     }
-    if (wanted == 0 && recorded.recording.started <= threads) return recorded;
-    threads = std::max<std::uint64_t>(recorded.recording.started, 1);
-    room = std::max<std::uint64_t>(room, wanted + instrumenter::kThreadHeader);
+    if (complete) return recorded;
+    // As many as there are may be too many for as much room each as was tried first.
+    const std::uint64_t least = recorded.recording.started > threads ? kLeastRoomPerThread : room;
+    const std::uint64_t wanted = std::max<std::uint64_t>(least, longest + instrumenter::kThreadHeader);
+    if (recorded.recording.started <= threads && wanted == room) return recorded;  // some have no end
+    threads = std::max<std::uint64_t>(recorded.recording.started, threads);
+    room = wanted;
   }
 }
 

@@ -337,9 +337,11 @@ instrumenter::Target Session::target() {
   target.used_draw_buffers = draw.draw_buffers;
   target.gpu_shader4 = draw.has("GL_EXT_gpu_shader4");
   target.draw_instanced = draw.has("GL_ARB_draw_instanced");
-  if (draw.feedback_components > 0 && draw.draws_points && stage() == Stage::vertex)
+  const bool compared = (stage() == Stage::vertex && draw.draws_points) || stage() == Stage::tess_eval;
+  if (draw.feedback_components > 0 && compared)
     target.feedback_components =
         draw.feedback_components - comparedOutputs(shader(), draw.feedback_components).words;
+  if (stage() == Stage::geometry) target.feedback_components = draw.feedback_components;
   return target;
 }
 

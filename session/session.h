@@ -174,8 +174,7 @@ struct Execution {
   std::shared_ptr<const wire::SharedMemory> memory;
   std::vector<ColorOutput> outputs;  // the program's own
   std::vector<std::uint32_t> storage;
-  std::span<const std::uint32_t>
-      feedback;  // records of `feedback_words`, the captured ones first; in `memory`
+  std::span<std::uint32_t> feedback;  // records of `feedback_words`, the captured ones first; in `memory`
   int feedback_words = 0;
   // One per repeat (and set, the sets of a repeat in order), of draw + glFinish: on the CPU's clock, and as
   // CPU time of all threads of the program.

@@ -1,8 +1,8 @@
 // Capture passes of stages other than the fragment stage: their threads come as a list.
 #include <algorithm>
-#include <numeric>
 
 #include "session/session_state.h"
+#include "session/thread_order.h"
 
 namespace shadestep::session {
 namespace {
@@ -12,6 +12,10 @@ using instrumenter::Carrier;
 
 constexpr std::uint64_t kHeader = 4;  // words of a list before its threads
 constexpr int kLeastRoom = 16;        // components that are left to captures at least
+const char* const kOnlyPoints =
+    "the instrumented shader emits one point per run or vertex (without storage buffers in this stage values "
+    "leave "
+    "it by transform feedback alone): what it gives to the next stage is not compared";
 
 bool isDouble(const instrumenter::FeedbackOutput& output) {
   return output.type.basic == frontend::Basic::double_;
@@ -26,41 +30,31 @@ int wordsPerThread(const AttachmentLayout& layout) {
   return layout.attachments() * 4;
 }
 
-// `words` of each record, which are `stride` apart.
-ThreadWords threadsOf(std::span<const std::uint32_t> records, int stride, int words) {
-  const int count = stride > 0 ? static_cast<int>(records.size() / static_cast<std::size_t>(stride)) : 0;
-  std::vector<std::uint32_t> blocks;
-  blocks.reserve(static_cast<std::size_t>(count) * static_cast<std::size_t>(words));
-  for (int i = 0; i < count; ++i) {
-    const auto first = records.begin() + static_cast<std::ptrdiff_t>(i) * stride;
-    blocks.insert(blocks.end(), first, first + words);
-  }
-  return {count, 1, words, std::move(blocks)};
+bool isFeedback(const AttachmentLayout& layout) {
+  return layout.words > 0 &&
+         (layout.carrier == Carrier::uint_feedback || layout.carrier == Carrier::float_feedback);
 }
 
-// Threads list themselves as they end. Sorted by their identities, which are integers: rows of vertices and
-// of invocations first, but all invocations on one primitive together.
+// `words` of each record, which are `stride` apart in `memory`.
+ThreadWords threadsOf(std::span<std::uint32_t> records, int stride, int words,
+                      std::shared_ptr<const void> memory) {
+  const auto apart = static_cast<std::size_t>(std::max(stride, 1));
+  return {static_cast<int>(records.size() / apart), words, records.data(), apart, std::move(memory)};
+}
+
+// Threads list themselves as they end; those of instances come one after the other.
 void sortByIdentity(ThreadWords& threads, const AttachmentLayout& layout, Stage stage) {
-  std::vector<int> words;
-  for (const instrumenter::Field& field : layout.identity) words.push_back(field.first_word);
-  if (stage == Stage::vertex || stage == Stage::compute) std::reverse(words.begin(), words.end());
-  std::vector<std::size_t> order(threads.count());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto before = [&](std::size_t a, std::size_t b) {
-    for (const int word : words) {
-      const auto left = static_cast<std::int32_t>(threads.word(a, word));
-      const auto right = static_cast<std::int32_t>(threads.word(b, word));
-      if (left != right) return left < right;
-    }
-    return false;
-  };
-  std::stable_sort(order.begin(), order.end(), before);
+  std::vector<instrumenter::FieldDecoder> decoders;
+  for (const instrumenter::Field& field : layout.identity) decoders.emplace_back(layout, field);
+  const ThreadOrder order(stage, threads.count(), decoders.size(), [&](std::size_t thread, std::size_t n) {
+    std::uint32_t number = 0;
+    decoders[n].decode(threads.head(thread), &number);
+    return number;
+  });
+  if (order.liesSo()) return;
   std::vector<std::uint32_t> sorted(threads.count() * static_cast<std::size_t>(threads.words()));
   auto* next = sorted.data();
-  for (const std::size_t i : order) {
-    threads.read(i, next);
-    next += threads.words();
-  }
+  for (std::size_t i = 0; i < order.size(); ++i, next += threads.words()) threads.read(order[i], next);
   threads = ThreadWords(threads.width(), 1, threads.words(), std::move(sorted));
 }
 
@@ -96,10 +90,11 @@ Prepared Session::prepareStages(const std::string& text, const AttachmentLayout&
   prepare.text = text;
   prepare.geometry = wire::Geometry::Unrasterized;
   prepare.storage_block = layout.list_block;
-  if (layout.carrier == Carrier::uint_feedback || layout.carrier == Carrier::float_feedback)
-    prepare.feedback_captures = layout.outputs;
+  if (isFeedback(layout)) prepare.feedback_captures = layout.outputs;
   std::string uncompared;
-  if (stage() != Stage::compute) {
+  if (stage() == Stage::geometry && isFeedback(layout)) {
+    uncompared = kOnlyPoints;
+  } else if (stage() != Stage::compute) {
     ComparedOutputs outputs = comparedOutputs(shader(lastOf(stage())), facts().feedback_components);
     prepare.feedback_outputs = std::move(outputs.names);
     if (!outputs.left_out.empty())
@@ -128,9 +123,15 @@ Captured Session::captureThreads(const Prepared& prepared, const AttachmentLayou
   Captured captured;
   captured.layout = layout;
   if (layout.carrier != Carrier::list) {
+    if (stage() == Stage::tess_eval && !drawsOnce(stop()))
+      throw Error(
+          Outcome::cannot_debug,
+          "which generated vertices of several instances or draws are the same is told by storage buffers in "
+          "the evaluation stage (OpenGL 4.3), which this driver lacks");
     captured.execution = execute(prepared, options);
-    captured.threads =
-        threadsOf(captured.execution.feedback, captured.execution.feedback_words, layout.words);
+    captured.threads = threadsOf(captured.execution.feedback, captured.execution.feedback_words, layout.words,
+                                 captured.execution.memory);
+    if (stage() != Stage::vertex) sortByIdentity(captured.threads, layout, stage());
     return captured;
   }
   const auto words = static_cast<std::uint64_t>(wordsPerThread(layout));
@@ -150,10 +151,11 @@ Captured Session::captureThreads(const Prepared& prepared, const AttachmentLayou
     }
     state_->listed_room = ended;
   }
-  const std::span<const std::uint32_t> listed(captured.execution.storage);
-  captured.threads = threadsOf(listed.subspan(kHeader, ended * words), static_cast<int>(words), layout.words);
-  sortByIdentity(captured.threads, layout, stage());
+  const auto listed = std::make_shared<std::vector<std::uint32_t>>(std::move(captured.execution.storage));
   captured.execution.storage.clear();
+  captured.threads = threadsOf(std::span(*listed).subspan(kHeader, ended * words), static_cast<int>(words),
+                               layout.words, listed);
+  sortByIdentity(captured.threads, layout, stage());
   return captured;
 }
 

@@ -58,17 +58,35 @@ Probe inputsProbe(const Shader& shader) {
   return probe;
 }
 
+// The token that opens the braces around `i`, kNone outside of all.
+frontend::TokenIndex openingBrace(const Shader& shader, frontend::TokenIndex i) {
+  int depth = 0;
+  for (--i; i >= 0; --i) {
+    const std::string& text = shader.tokens[static_cast<std::size_t>(i)].text;
+    if (text == "}") ++depth;
+    if (text == "{" && depth-- == 0) return i;
+  }
+  return frontend::kNone;
+}
+
+// Is the variable declared with `patch`, alone or in a block?
+bool isPatch(const Shader& shader, const frontend::Variable& variable) {
+  const auto text = [&](frontend::TokenIndex i) { return shader.tokens[static_cast<std::size_t>(i)].text; };
+  frontend::TokenIndex head = variable.declared;
+  if (head > 0 && text(head - 1) == "}")
+    head = openingBrace(shader, head - 1);  // the block of this instance
+  else if (const auto block = openingBrace(shader, head); block != frontend::kNone)
+    head = block;
+  for (frontend::TokenIndex i = head - 1; i >= 0 && text(i) != ";" && text(i) != "}"; --i)
+    if (text(i) == "patch") return true;
+  return false;
+}
+
 // One value for each vertex of the patch, in an array that has room for as many as there can be.
 bool isPerVertex(const Shader& shader, const std::string& name) {
-  const auto text = [&](frontend::TokenIndex i) { return shader.tokens[static_cast<std::size_t>(i)].text; };
-  for (const frontend::Variable& variable : shader.variables) {
-    if (variable.name != name || variable.storage != frontend::Storage::in || !variable.type.isArray())
-      continue;
-    bool patch = false;
-    for (frontend::TokenIndex i = variable.declared; i >= 0 && text(i) != ";" && text(i) != "{"; --i)
-      patch = patch || text(i) == "patch";
-    return !patch;
-  }
+  for (const frontend::Variable& variable : shader.variables)
+    if (variable.name == name && variable.storage == frontend::Storage::in && variable.type.isArray())
+      return !isPatch(shader, variable);
   return false;
 }
 

@@ -1,8 +1,8 @@
 // Who the threads of a capture are: what tells them apart, and the one that a name means.
 #include <algorithm>
-#include <numeric>
 #include <set>
 
+#include "session/thread_order.h"
 #include "session/thread_values.h"
 
 namespace shadestep::session {
@@ -104,41 +104,43 @@ std::vector<std::uint32_t> wordsAt(const ThreadValues& threads, std::size_t thre
   return words;
 }
 
+// The same without copying them.
+bool sameWords(const ThreadValues& threads, std::size_t a, std::size_t b) {
+  const auto same = [&](const WatchedValues& values) {
+    return std::equal(values.at(a), values.at(a) + values.stride, values.at(b));
+  };
+  return threads.marks[a] == threads.marks[b] &&
+         std::all_of(threads.identity.begin(), threads.identity.end(), same) &&
+         std::all_of(threads.values.begin(), threads.values.end(), same);
+}
+
 void keep(WatchedValues& values, const std::vector<std::size_t>& kept) {
   std::vector<std::uint32_t> words;
+  words.reserve(kept.size() * values.stride);
   for (const std::size_t thread : kept)
     words.insert(words.end(), values.at(thread), values.at(thread) + values.stride);
   values.words = std::move(words);
 }
 
-// Threads by identity, and those of one identity in the order in which they lie.
-std::vector<std::size_t> byIdentity(const ThreadValues& threads) {
-  std::vector<std::size_t> order(threads.marks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    for (const WatchedValues& one : threads.identity)
-      if (*one.at(a) != *one.at(b)) return *one.at(a) < *one.at(b);
-    return false;
-  });
-  return order;
-}
-
-bool sameIdentity(const ThreadValues& threads, std::size_t a, std::size_t b) {
-  return std::all_of(threads.identity.begin(), threads.identity.end(),
-                     [&](const WatchedValues& one) { return *one.at(a) == *one.at(b); });
+ThreadOrder byIdentity(const ThreadValues& threads, Stage stage) {
+  return {stage, threads.marks.size(), threads.identity.size(),
+          [&](std::size_t thread, std::size_t n) { return *threads.identity[n].at(thread); }};
 }
 
 // Of threads that agree in all that is known of them, one stays.
-void keepOneOfEach(ThreadValues& threads) {
+void keepOneOfEach(ThreadValues& threads, const ThreadOrder& order) {
   const std::size_t count = threads.marks.size();
-  const std::vector<std::size_t> order = byIdentity(threads);
   std::vector<std::size_t> kept;
-  std::set<std::vector<std::uint32_t>> same;  // of one identity
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool first = i == 0 || !sameIdentity(threads, order[i - 1], order[i]);
-    const bool alone = first && (i + 1 == count || !sameIdentity(threads, order[i], order[i + 1]));
-    if (first) same.clear();
-    if (alone || same.insert(wordsAt(threads, order[i])).second) kept.push_back(order[i]);
+  std::set<std::vector<std::uint32_t>> others;  // of one identity, that differ from its first thread
+  for (std::size_t i = 0, first = 0; i < count; ++i) {
+    if (i == 0 || !order.same(i - 1, i)) {
+      others.clear();
+      first = i;
+      kept.push_back(order[i]);
+    } else if (!sameWords(threads, order[first], order[i]) &&
+               others.insert(wordsAt(threads, order[i])).second) {
+      kept.push_back(order[i]);
+    }
   }
   std::sort(kept.begin(), kept.end());
   if (kept.size() == count) return;
@@ -156,16 +158,11 @@ void keepOneOfEach(ThreadValues& threads) {
   threads.width = static_cast<int>(kept.size());
 }
 
-void numberRepeats(ThreadValues& threads) {
-  const std::vector<std::size_t> order = byIdentity(threads);
+void numberRepeats(ThreadValues& threads, const ThreadOrder& order) {
   WatchedValues repeat = numbers("repeat", order.size());
-  bool any = false;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (!sameIdentity(threads, order[i - 1], order[i])) continue;
-    repeat.words[order[i]] = repeat.words[order[i - 1]] + 1;
-    any = true;
-  }
-  if (any) threads.identity.push_back(std::move(repeat));
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (order.same(i - 1, i)) repeat.words[order[i]] = repeat.words[order[i - 1]] + 1;
+  threads.identity.push_back(std::move(repeat));
 }
 
 }  // namespace
@@ -182,8 +179,12 @@ void nameThreads(ThreadValues& threads, Stage stage, const DrawStop& stop) {
     }
     return;
   }
-  if (stage == Stage::vertex || (stage == Stage::tess_eval && drawsOnce(stop))) keepOneOfEach(threads);
-  if (stage != Stage::vertex && stage != Stage::compute) numberRepeats(threads);
+  const ThreadOrder order = byIdentity(threads, stage);
+  if (order.allDistinct()) return;
+  if (stage == Stage::vertex || (stage == Stage::tess_eval && drawsOnce(stop))) keepOneOfEach(threads, order);
+  if (stage == Stage::vertex || stage == Stage::compute) return;
+  const ThreadOrder left = byIdentity(threads, stage);
+  if (!left.allDistinct()) numberRepeats(threads, left);
 }
 
 }  // namespace shadestep::session

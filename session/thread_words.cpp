@@ -23,6 +23,16 @@ ThreadWords::ThreadWords(int width, int height, int words, std::vector<std::uint
       planes_(std::move(planes)),
       memory_(std::move(memory)) {}
 
+ThreadWords::ThreadWords(int count, int words, std::uint32_t* first, std::size_t stride,
+                         std::shared_ptr<const void> memory)
+    : width_(count),
+      height_(1),
+      words_(static_cast<std::size_t>(words)),
+      stride_(stride),
+      memory_(std::move(memory)) {
+  for (std::size_t plane = 0; plane < words_; plane += 4) planes_.push_back(first + plane);
+}
+
 void ThreadWords::read(std::size_t thread, std::uint32_t* into) const {
   const std::size_t at = thread * stride_;
   std::size_t first = 0;

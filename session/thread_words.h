@@ -20,6 +20,9 @@ class ThreadWords {
   // `memory`.
   ThreadWords(int width, int height, int words, std::vector<std::uint32_t*> planes,
               std::shared_ptr<const void> memory);
+  // Blocks of `words` in a row, `stride` words from one to the next. They lie in `memory`.
+  ThreadWords(int count, int words, std::uint32_t* first, std::size_t stride,
+              std::shared_ptr<const void> memory);
 
   int width() const { return width_; }
   int height() const { return height_; }

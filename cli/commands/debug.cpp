@@ -23,6 +23,12 @@ void requireOneFragment(const DebugOptions& options) {
   }
 }
 
+void requireVertex(session::Stage stage, bool chosen, const DebugOptions& options) {
+  if (stage == session::Stage::vertex && chosen && options.pixel.empty() && options.at.empty()) return;
+  throw session::Error(session::Outcome::usage,
+                       "--pixels goes with --stage vertex --vertex N [--instance M] alone");
+}
+
 int run(const Common& common, const DebugOptions& options) {
   const session::Stage stage = selectedStage(common);
   const bool chosen = chosenThread(stage, options, followsPixels(stage, options)).has_value();
@@ -32,8 +38,9 @@ int run(const Common& common, const DebugOptions& options) {
                                                       threadSyntax(stage) +
                                                       ", or which place with --at LINE --print NAMES");
   }
-  if (options.at.empty() && !(options.print.empty() && options.image.empty() && options.scatter.empty() &&
-                              options.iteration.empty())) {
+  if (options.pixels) requireVertex(stage, chosen, options);
+  if (options.at.empty() && !(options.print.empty() && (options.image.empty() || options.pixels) &&
+                              options.scatter.empty() && options.iteration.empty())) {
     throw session::Error(session::Outcome::usage,
                          "--print, --image, --scatter and --iteration go with --at LINE");
   }
@@ -43,7 +50,8 @@ int run(const Common& common, const DebugOptions& options) {
   session.requireCapturable();
   choose(session, options.fragments);
   const bool origin = !options.pixel.empty() && stage != session::Stage::fragment;
-  const auto look = origin               ? debugOrigin
+  const auto look = options.pixels       ? debugPixels
+                    : origin             ? debugOrigin
                     : options.at.empty() ? debugThread
                     : options.hit >= 0   ? debugHit
                                          : debugValues;
@@ -65,6 +73,8 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
       *command, *options,
       "the fragment on this pixel, from the lower left; with --stage vertex or tess-control: the "
       "runs that it comes from");
+  command->add_flag("--pixels", options->pixels,
+                    "with --stage vertex --vertex N: the pixels whose visible fragments its primitives made");
   command
       ->add_option("--hit", options->hit,
                    "which fragment, if the draw has several on the pixel; default the visible one")
@@ -83,11 +93,13 @@ void addDebug(CLI::App& app, Common& common, Action& action) {
       ->type_name("A,B");
   command
       ->add_option("--image", options->image,
-                   "the first printed value over all threads, as a picture or exactly")
+                   "the first printed value over all threads, as a picture or exactly; with --pixels: these")
       ->type_name("F.png|F.exr");
   command
-      ->add_option("--csv", options->csv,
-                   "the printed values, a row per thread (with --pixel alone: a row per step)")
+      ->add_option(
+          "--csv", options->csv,
+          "the printed values, a row per thread (with --pixel alone: a row per step; with --pixels: a "
+          "row per pixel)")
       ->type_name("F");
   command
       ->add_option(

@@ -19,7 +19,7 @@ struct DebugOptions : ThreadOptions {
   std::string iteration;
   std::string call;
   std::string print;
-  bool after = false;
+  bool after = false, pixels = false;
   std::string image;
   std::string csv, scatter;
   std::string plan = "auto";
@@ -31,6 +31,8 @@ struct DebugOptions : ThreadOptions {
 int debugThread(session::Session&, const Common&, const DebugOptions&);
 // The runs of the selected stage, which is an earlier one, that the fragment on --pixel comes from.
 int debugOrigin(session::Session&, const Common&, const DebugOptions&);
+// The pixels that the chosen vertex touched.
+int debugPixels(session::Session&, const Common&, const DebugOptions&);
 // Values at --at over all threads.
 int debugValues(session::Session&, const Common&, const DebugOptions&);
 // Values at --at of the fragment --hit on --pixel.

@@ -90,7 +90,7 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
                  traces, [&] { return drawBare(*bare); }, executed);
              !refusal.text.empty()) {
     return refusal;
-  } else if (records != bare->records) {
+  } else if (!stages.outputs.empty() && records != bare->records) {
     // Behind the last record of a draw lie those of the one before.
     const std::uint64_t more = std::max(records, bare->records) - std::min(records, bare->records);
     executed.differing += more * static_cast<std::uint64_t>(std::max(feedback_.outputWords(), 1));
@@ -141,25 +141,33 @@ capture::FeedbackLayout StageReplay::layoutOf(const replay::ProgramCopy& copy) c
   return layout;
 }
 
+// A geometry shader that gives captures alone emits what its text says; all other texts of a stage leave as
+// many records as the program's own.
+bool StageReplay::ownRecords(const replay::ProgramCopy& copy) const {
+  return copy.stages->last == wire::Stage::Geometry && copy.stages->outputs.empty();
+}
+
 bool StageReplay::counted(const replay::ProgramCopy& copy) const {
-  return copy.stages->feedback.words() == 0 || records_.count(copy.stages->last) != 0;
+  return copy.stages->feedback.words() == 0 || (!ownRecords(copy) && records_.count(copy.stages->last) != 0);
 }
 
 // Everything as it was at the stop, and room for as many records as the stage makes, whatever of its texts
 // runs.
 Refusal StageReplay::prepare(const replay::ProgramCopy& copy) {
   const replay::Stages& stages = *copy.stages;
+  std::uint64_t records = 0;
   if (!counted(copy)) {
     memory_.restore();
-    std::uint64_t records = 0;
     if (Refusal refusal = feedback_.count(
             layoutOf(copy), [&] { call(copy); }, records);
         !refusal.text.empty())
       return refusal;
-    records_[stages.last] = records;
+    if (!ownRecords(copy)) records_[stages.last] = records;
+  } else if (stages.feedback.words() > 0) {
+    records = records_[stages.last];
   }
   memory_.restore();
-  return feedback_.reset(layoutOf(copy), stages.feedback.words() == 0 ? 0 : records_[stages.last]);
+  return feedback_.reset(layoutOf(copy), records);
 }
 
 void StageReplay::call(const replay::ProgramCopy& copy) const {

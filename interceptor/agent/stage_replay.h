@@ -52,6 +52,7 @@ class StageReplay {
   guard::Refusal drawBare(Bare&);
   bool asPoints(const replay::ProgramCopy&) const;
   capture::FeedbackLayout layoutOf(const replay::ProgramCopy&) const;
+  bool ownRecords(const replay::ProgramCopy&) const;
   bool counted(const replay::ProgramCopy&) const;
   guard::Refusal prepare(const replay::ProgramCopy&);
   void call(const replay::ProgramCopy&) const;

@@ -193,10 +193,17 @@ Refusal comesFromOneProgram(const Original& original, wire::Stage last) {
   return {};
 }
 
-// OpenGL ES links no program without a fragment shader.
-Refusal attachEmptyFragmentStage(GLuint copy) {
+// "#version 320 es", as the shader says it.
+std::string versionOf(const std::string& text) {
+  const std::size_t at = text.find("#version");
+  if (at == std::string::npos) return "#version 100";
+  return text.substr(at, text.find('\n', at) - at);
+}
+
+// OpenGL ES links no program without a fragment shader, and none of several versions.
+Refusal attachEmptyFragmentStage(const std::string& version, GLuint copy) {
   std::string log;
-  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, "#version 100\nvoid main() {}\n", log)};
+  const OwnShader fragment{compile(GL_FRAGMENT_SHADER, version + "\nvoid main() {}\n", log)};
   if (fragment.name == 0) return doesNotCompile(GL_FRAGMENT_SHADER, log);
   gl().AttachShader(copy, fragment.name);
   return {};
@@ -215,6 +222,7 @@ Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& ori
     return guard::unsupported(std::string("the program has no ") + stageWord(replaced) + " shader");
   }
   std::string log;
+  std::string version = request.text.empty() ? "" : versionOf(request.text);
   if (!request.text.empty()) {
     const OwnShader own{compile(replaced, request.text, log)};
     if (own.name == 0) return doesNotCompile(replaced, log);
@@ -227,12 +235,14 @@ Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& ori
       return guard::unsupported(std::string("the ") + stageWord(shader.type) +
                                 " shader cannot be rebuilt: " + shader.source->reason);
     }
+    if (version.empty() && !shader.source->strings.empty())
+      version = versionOf(shader.source->strings.front());
     const GLuint same = cache.shader(shader.type, shader.source, log);
     if (same == 0) return doesNotCompile(shader.type, log);
     gl().AttachShader(copy, same);
   }
   if (unrasterized && facts.es && request.stage != wire::Stage::Compute)
-    return attachEmptyFragmentStage(copy);
+    return attachEmptyFragmentStage(version, copy);
   return {};
 }
 

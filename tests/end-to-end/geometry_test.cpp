@@ -15,7 +15,19 @@ namespace {
 using Row = std::vector<std::string>;
 using Rows = std::vector<Row>;
 
-const std::string kProgram = "programs/geometry";
+// With storage buffers, and without: then values leave a geometry shader by transform feedback.
+class Geometry : public testing::TestWithParam<std::string> {
+ protected:
+  bool by_feedback() const { return GetParam() == "feedback"; }
+  std::vector<std::string> program() const {
+    return by_feedback() ? withoutStorage("programs/geometry") : std::vector{binary("programs/geometry")};
+  }
+  // By feedback the shader emits points of ours alone.
+  Json expectedCheck() const { return by_feedback() ? "not compared" : "identical"; }
+
+  Json emitted(const Scratch& scratch, int draw) const;
+};
+class Emits : public Geometry {};
 
 // ---- tests/programs/geometry.cpp in C++
 
@@ -71,13 +83,13 @@ std::vector<std::string> geometryDraw(int draw, std::vector<std::string> options
 
 // ---- values
 
-TEST(Geometry, ShowsValuesOfEveryRun) {
+TEST_P(Geometry, ShowsValuesOfEveryRun) {
   const Scratch scratch;
   for (const char* plan : {"single", "window"}) {
     const Finished run =
         scratch.shadestep(geometryDraw(0, {"--at", "25", "--print", "id,count,odd,mixed,third,sum", "--csv",
                                            "values.csv", "--plan", plan, "--json", "--continue"}),
-                          {binary(kProgram)});
+                          program());
     ASSERT_EQ(run.status, 0) << run.err;
     const Rows rows = readCsv(scratch.file("values.csv"));
     ASSERT_EQ(rows.size(), kTriangles) << plan;
@@ -94,15 +106,15 @@ TEST(Geometry, ShowsValuesOfEveryRun) {
       EXPECT_EQ(std::stof(row[7]), expected.sum);
     }
     EXPECT_EQ(run.json()["threads"]["launched"], kTriangles);
-    EXPECT_EQ(run.json()["check"]["outputs"], "identical");
+    EXPECT_EQ(run.json()["check"]["outputs"], expectedCheck());
   }
 }
 
-TEST(Geometry, ShowsValuesAtAnIterationsEmit) {
+TEST_P(Geometry, ShowsValuesAtAnIterationsEmit) {
   const Scratch scratch;
   const Finished run = scratch.shadestep(geometryDraw(0, {"--at", "31", "--iteration", "3", "--print",
                                                           "tag,bits,exact", "--csv", "values.csv", "--json"}),
-                                         {binary(kProgram)});
+                                         program());
   ASSERT_EQ(run.status, 0) << run.err;
   Rows rows = readCsv(scratch.file("values.csv"));
   std::size_t row = 0;
@@ -120,12 +132,12 @@ TEST(Geometry, ShowsValuesAtAnIterationsEmit) {
   EXPECT_EQ(run.json()["threads"]["reached"], row);
 }
 
-TEST(Geometry, FollowsOneRun) {
+TEST_P(Geometry, FollowsOneRun) {
   const Scratch scratch;
   for (const int id : {0, 5, 6}) {
     const StripRun expected{id};
     const Finished run = scratch.shadestep(
-        geometryDraw(0, {"--primitive", std::to_string(id), "--json", "--continue"}), {binary(kProgram)});
+        geometryDraw(0, {"--primitive", std::to_string(id), "--json", "--continue"}), program());
     ASSERT_EQ(run.status, 0) << run.err;
     const Json document = run.json();
     EXPECT_EQ(document["thread"], (Json{{"stage", "geometry"}, {"primitive", id}, {"invocation", 0}}));
@@ -148,12 +160,12 @@ TEST(Geometry, FollowsOneRun) {
     ASSERT_EQ(bits.size(), static_cast<std::size_t>(expected.count()));
     for (int i = 0; i < expected.count(); ++i)
       EXPECT_EQ(bits[static_cast<std::size_t>(i)], expected.mixed ^ static_cast<std::uint32_t>(i));
-    EXPECT_EQ(document["check"]["outputs"], "identical");
+    EXPECT_EQ(document["check"]["outputs"], expectedCheck());
   }
 }
 
 // tests/programs/stages.cpp: a loop that runs as often as the shader has inputs, at most.
-TEST(Geometry, FollowsALoopOverItsInputs) {
+TEST(GeometryRun, FollowsALoopOverItsInputs) {
   const Scratch scratch;
   for (const int id : {1, 2, 5}) {
     const Finished run = scratch.shadestep(geometryDraw(2, {"--primitive", std::to_string(id), "--json"}),
@@ -169,11 +181,11 @@ TEST(Geometry, FollowsALoopOverItsInputs) {
   }
 }
 
-TEST(Geometry, TellsInvocationsApart) {
+TEST_P(Geometry, TellsInvocationsApart) {
   const Scratch scratch;
   const Finished run = scratch.shadestep(
       geometryDraw(1, {"--at", "10", "--print", "sum,points", "--csv", "values.csv", "--json", "--continue"}),
-      {binary(kProgram)});
+      program());
   ASSERT_EQ(run.status, 0) << run.err;
   Rows expected;
   for (int id = 0; id < 5; ++id) {
@@ -184,8 +196,8 @@ TEST(Geometry, TellsInvocationsApart) {
   }
   EXPECT_EQ(readCsv(scratch.file("values.csv")), expected);
 
-  const Finished one = scratch.shadestep(geometryDraw(1, {"--primitive", "4", "--invocation", "1", "--json"}),
-                                         {binary(kProgram)});
+  const Finished one =
+      scratch.shadestep(geometryDraw(1, {"--primitive", "4", "--invocation", "1", "--json"}), program());
   ASSERT_EQ(one.status, 0) << one.err;
   EXPECT_EQ(one.json()["thread"], (Json{{"stage", "geometry"}, {"primitive", 4}, {"invocation", 1}}));
   const Json steps = one.json()["steps"];
@@ -193,11 +205,10 @@ TEST(Geometry, TellsInvocationsApart) {
             (4 + 1) % 3);
 }
 
-TEST(Geometry, NumbersRunsOfSeveralInstances) {
+TEST_P(Geometry, NumbersRunsOfSeveralInstances) {
   const Scratch scratch;
-  const Finished run =
-      scratch.shadestep(geometryDraw(3, {"--at", "8", "--print", "key[0]", "--csv", "values.csv", "--json"}),
-                        {binary(kProgram)});
+  const Finished run = scratch.shadestep(
+      geometryDraw(3, {"--at", "8", "--print", "key[0]", "--csv", "values.csv", "--json"}), program());
   ASSERT_EQ(run.status, 0) << run.err;
   Rows expected;
   for (int id = 0; id < 3; ++id)
@@ -206,39 +217,37 @@ TEST(Geometry, NumbersRunsOfSeveralInstances) {
           {std::to_string(id), "0", std::to_string(instance), std::to_string(key(id, instance))});
   EXPECT_EQ(readCsv(scratch.file("values.csv")), expected);
 
-  const Finished one = scratch.shadestep(geometryDraw(3, {"--primitive", "1", "--instance", "1", "--json"}),
-                                         {binary(kProgram)});
+  const Finished one =
+      scratch.shadestep(geometryDraw(3, {"--primitive", "1", "--instance", "1", "--json"}), program());
   ASSERT_EQ(one.status, 0) << one.err;
   // Which of the two threads of primitive 1 an input belongs to another draw cannot tell.
   EXPECT_FALSE(one.json()["inputs"].contains("key"));
   EXPECT_NE(one.json()["check"]["left_out"].get<std::string>().find("key"), std::string::npos);
-  EXPECT_EQ(
-      scratch.shadestep(geometryDraw(3, {"--primitive", "1", "--instance", "2"}), {binary(kProgram)}).status,
-      3);
+  EXPECT_EQ(scratch.shadestep(geometryDraw(3, {"--primitive", "1", "--instance", "2"}), program()).status, 3);
 }
 
-TEST(Geometry, SaysWhatThereIs) {
+TEST_P(Geometry, SaysWhatThereIs) {
   const Scratch scratch;
-  const Finished beyond = scratch.shadestep(geometryDraw(0, {"--primitive", "7"}), {binary(kProgram)});
+  const Finished beyond = scratch.shadestep(geometryDraw(0, {"--primitive", "7"}), program());
   EXPECT_EQ(beyond.status, 3);
   EXPECT_NE(beyond.err.find("primitive 0 to 6, invocation 0 to 0"), std::string::npos) << beyond.err;
-  EXPECT_EQ(scratch.shadestep(geometryDraw(0, {"--vertex", "1"}), {binary(kProgram)}).status, 2);
-  EXPECT_EQ(scratch.shadestep({"primitives", "--draw", "4"}, {binary(kProgram)}).status, 3);  // no such stage
-  EXPECT_EQ(scratch.shadestep({"primitives", "--primitive", "7"}, {binary(kProgram)}).status, 3);
+  EXPECT_EQ(scratch.shadestep(geometryDraw(0, {"--vertex", "1"}), program()).status, 2);
+  EXPECT_EQ(scratch.shadestep({"primitives", "--draw", "4"}, program()).status, 3);  // no such stage
+  EXPECT_EQ(scratch.shadestep({"primitives", "--primitive", "7"}, program()).status, 3);
 }
 
 // ---- the tree
 
-Json emitted(const Scratch& scratch, int draw) {
+Json Geometry::emitted(const Scratch& scratch, int draw) const {
   const Finished run = scratch.shadestep(
-      {"primitives", "--draw", std::to_string(draw), "--csv", "vertices.csv", "--json"}, {binary(kProgram)});
+      {"primitives", "--draw", std::to_string(draw), "--csv", "vertices.csv", "--json"}, program());
   EXPECT_EQ(run.status, 0) << run.err;
   // Transform feedback does not take outputs of several streams into one buffer.
-  EXPECT_EQ(run.json()["check"]["outputs"], draw == 2 ? "not compared" : "identical");
+  EXPECT_EQ(run.json()["check"]["outputs"], draw == 2 ? "not compared" : expectedCheck());
   return run.json();
 }
 
-TEST(Emits, AreATreeByInputPrimitive) {
+TEST_P(Emits, AreATreeByInputPrimitive) {
   const Scratch scratch;
   const Json document = emitted(scratch, 0);
   Json inputs = Json::array();
@@ -284,7 +293,7 @@ TEST(Emits, AreATreeByInputPrimitive) {
   EXPECT_GT(silent, 0);
 }
 
-TEST(Emits, TellInvocationsApart) {
+TEST_P(Emits, TellInvocationsApart) {
   const Scratch scratch;
   const Json document = emitted(scratch, 1);
   for (int id = 0; id < 5; ++id) {
@@ -303,7 +312,7 @@ TEST(Emits, TellInvocationsApart) {
   }
 }
 
-TEST(Emits, KeepStreamsApart) {
+TEST_P(Emits, KeepStreamsApart) {
   const Scratch scratch;
   const Json document = emitted(scratch, 2);
   for (int id = 0; id < 4; ++id) {
@@ -318,7 +327,7 @@ TEST(Emits, KeepStreamsApart) {
   }
 }
 
-TEST(Emits, BeyondTheLimitAreNamed) {
+TEST_P(Emits, BeyondTheLimitAreNamed) {
   const Scratch scratch;
   const Json document = emitted(scratch, 3);
   EXPECT_EQ(document["totals"]["beyond_limit"], 2 * 2);  // of two instances
@@ -337,6 +346,11 @@ TEST(Emits, BeyondTheLimitAreNamed) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(All, Geometry, testing::Values("storage", "feedback"),
+                         [](const auto& parameter) { return parameter.param; });
+INSTANTIATE_TEST_SUITE_P(All, Emits, testing::Values("storage", "feedback"),
+                         [](const auto& parameter) { return parameter.param; });
 
 }  // namespace
 }  // namespace shadestep::test

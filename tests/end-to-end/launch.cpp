@@ -116,6 +116,15 @@ std::string binary(const std::string& name) {
   return std::string(SHADESTEP_TEST_BINARIES) + "/" + name;
 }
 
+std::vector<std::string> withoutStorage(const std::string& name) {
+  return {"env",
+          "MESA_GL_VERSION_OVERRIDE=4.1",
+          "MESA_GLSL_VERSION_OVERRIDE=410",
+          "MESA_EXTENSION_OVERRIDE=-GL_ARB_shader_storage_buffer_object",
+          binary(name),
+          "4.1"};
+}
+
 std::vector<std::string> underX(std::vector<std::string> command) {
   command.insert(command.begin(), {"xvfb-run", "-a"});
   return command;

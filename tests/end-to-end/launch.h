@@ -46,6 +46,9 @@ std::string place(const Json& answer);
 
 // An executable of this build.
 std::string binary(const std::string& name);
+// A program of this build in a context of OpenGL 4.1 without storage buffers, which it is told by its
+// argument.
+std::vector<std::string> withoutStorage(const std::string& name);
 // The command prefixed so that it has an X server of its own.
 std::vector<std::string> underX(std::vector<std::string> command);
 

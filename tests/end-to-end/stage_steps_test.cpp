@@ -109,17 +109,17 @@ int emits(int id) {
 
 TEST_P(StageSteps, OfGeometryRuns) {
   const Json at =
-      steps({"--stage", "geometry", "--primitive", "5"}, "programs/geometry",
+      steps({"--stage", "geometry", "--primitive", "3"}, "programs/geometry",
             {"over", "print id", "into", "print id", "out", "line 25", "over", "over", "side true", "line 30",
              "print tag.x", "over", "over", "over", "choices", "next", "next", "next", "leave"});
-  EXPECT_EQ(shown(at[1]).picked, 5);
+  EXPECT_EQ(shown(at[1]).picked, 3);
   EXPECT_EQ(shown(at[1]).max, 6);
   EXPECT_EQ(place(at[2]), "countOf 12");
   EXPECT_EQ(place(at[4]), "main 20 after 17");
   EXPECT_EQ(place(at[7]), "main 25[0]?");
   EXPECT_EQ(side(at[7], "true"), count(kRuns, [](int id) { return emits(id) > 0; }));
   EXPECT_EQ(place(at[9]), "main 30[0]");
-  EXPECT_EQ(shown(at[10]).picked, 5);
+  EXPECT_EQ(shown(at[10]).picked, 3);
   EXPECT_EQ(shown(at[10]).reached, count(kRuns, [](int id) { return emits(id) > 0; }));
   EXPECT_EQ(place(at[11]), "main 31[0]");
   EXPECT_EQ(place(at[13]), "main 32[0]?");

@@ -100,13 +100,21 @@ TEST(TessControl, FollowsOneRun) {
   }
 }
 
-TEST(TessEval, ShowsEveryGeneratedVertex) {
+class TessEval : public testing::TestWithParam<std::string> {
+ protected:
+  // With storage buffers, or without: then values leave the shader by transform feedback.
+  std::vector<std::string> program() const {
+    return GetParam() == "feedback" ? withoutStorage(kProgram) : std::vector{binary(kProgram)};
+  }
+};
+
+TEST_P(TessEval, ShowsEveryGeneratedVertex) {
   const Scratch scratch;
   for (const char* plan : {"single", "window"}) {
     const Finished run =
         scratch.shadestep(tessellation("tess-eval", {"--at", "13", "--print", "value,own[1]", "--csv",
                                                      "values.csv", "--plan", plan, "--json", "--continue"}),
-                          {binary(kProgram)});
+                          program());
     ASSERT_EQ(run.status, 0) << run.err;
     Rows expected;
     for (int patch = 0; patch < kPatches; ++patch) {
@@ -129,11 +137,10 @@ TEST(TessEval, ShowsEveryGeneratedVertex) {
   }
 }
 
-TEST(TessEval, FollowsOneGeneratedVertex) {
+TEST_P(TessEval, FollowsOneGeneratedVertex) {
   const Scratch scratch;
   const Finished run = scratch.shadestep(
-      tessellation("tess-eval", {"--primitive", "1", "--vertex", "5", "--json", "--continue"}),
-      {binary(kProgram)});
+      tessellation("tess-eval", {"--primitive", "1", "--vertex", "5", "--json", "--continue"}), program());
   ASSERT_EQ(run.status, 0) << run.err;
   const Json document = run.json();  // the sixth of 0,0  0,0.5  0,1  0.5,0  ...
   EXPECT_EQ(document["thread"], (Json{{"stage", "tess-eval"}, {"primitive", 1}, {"u", 0.5}, {"v", 1}}));
@@ -148,14 +155,34 @@ TEST(TessEval, FollowsOneGeneratedVertex) {
   EXPECT_EQ(document["check"]["outputs"], "identical");
 }
 
-TEST(TessEval, SaysWhatThereIs) {
+TEST_P(TessEval, SaysWhatThereIs) {
   const Scratch scratch;
   const Finished beyond =
-      scratch.shadestep(tessellation("tess-eval", {"--primitive", "1", "--vertex", "9"}), {binary(kProgram)});
+      scratch.shadestep(tessellation("tess-eval", {"--primitive", "1", "--vertex", "9"}), program());
   EXPECT_EQ(beyond.status, 3);
   EXPECT_NE(beyond.err.find("primitive 0 to 2 with 27 generated vertices"), std::string::npos) << beyond.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TessEval, testing::Values("storage", "feedback"),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST(TessControl, SaysWhatThereIs) {
+  const Scratch scratch;
   EXPECT_EQ(scratch.shadestep(tessellation("tess-control", {"--primitive", "3"}), {binary(kProgram)}).status,
             3);
+}
+
+TEST(WithoutStorage, SaysWhatCannotBeTold) {
+  const Scratch scratch;
+  const Finished control =
+      scratch.shadestep(tessellation("tess-control", {"--primitive", "0"}), withoutStorage(kProgram));
+  EXPECT_EQ(control.status, 4);
+  EXPECT_NE(control.err.find("--stage tess-eval"), std::string::npos) << control.err;
+  const Finished instances =
+      scratch.shadestep({"debug", "--draw", "5", "--stage", "tess-eval", "--at", "13", "--print", "value"},
+                        withoutStorage(kProgram));
+  EXPECT_EQ(instances.status, 4);
+  EXPECT_NE(instances.err.find("several instances"), std::string::npos) << instances.err;
 }
 
 }  // namespace

@@ -1,8 +1,26 @@
-// OpenGL 4.5 core: geometry shaders that make strips (draw 0), run three times on lines with adjacency (1),
-// emit to two streams (2) and on two instances, once too much (3); patches of four with evaluated quads (4).
+// OpenGL 4.5 core, or with the argument "4.1" that version: geometry shaders that make strips (draw 0), run
+// three times on lines with adjacency (1), emit to two streams (2) and on two instances, once too much (3);
+// patches of four with evaluated quads (4); the same on two instances (5).
+#include <string>
+
 #include "osmesa_program.h"
 
-static const char* const kVertex = R"glsl(#version 450
+using Stages = std::initializer_list<std::pair<GLenum, const char*>>;
+
+static const char* version = "#version 450";
+
+static GLuint link(Stages stages) {
+  const GLuint program = glCreateProgram();
+  for (const auto& [stage, text] : stages)
+    glAttachShader(program, compile(stage, (version + std::string(text)).c_str()));
+  glLinkProgram(program);
+  GLint linked = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (!linked) fail("the program does not link");
+  return program;
+}
+
+static const char* const kVertex = R"glsl(
 out int key;
 out float height;
 void main()
@@ -13,7 +31,7 @@ void main()
 }
 )glsl";
 
-static const char* const kStrips = R"glsl(#version 450
+static const char* const kStrips = R"glsl(
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 12) out;
 in int key[];
@@ -50,7 +68,7 @@ void main()
 }
 )glsl";
 
-static const char* const kInvocations = R"glsl(#version 450
+static const char* const kInvocations = R"glsl(
 layout(lines_adjacency, invocations = 3) in;
 layout(points, max_vertices = 2) out;
 in int key[];
@@ -70,12 +88,12 @@ void main()
 }
 )glsl";
 
-static const char* const kStreams = R"glsl(#version 450
+static const char* const kStreams = R"glsl(
 layout(points) in;
 layout(points, max_vertices = 6) out;
 in int key[];
-layout(stream = 0) out flat int number;
-layout(stream = 1) out flat int other;
+layout(stream = 0) flat out int number;
+layout(stream = 1) flat out int other;
 void main()
 {
     number = 0;
@@ -90,7 +108,7 @@ void main()
 }
 )glsl";
 
-static const char* const kLines = R"glsl(#version 450
+static const char* const kLines = R"glsl(
 layout(points) in;
 layout(line_strip, max_vertices = 4) out;
 in int key[];
@@ -106,7 +124,7 @@ void main()
 }
 )glsl";
 
-static const char* const kControl = R"glsl(#version 450
+static const char* const kControl = R"glsl(
 layout(vertices = 4) out;
 in int key[];
 out int own[];
@@ -133,7 +151,7 @@ void main()
 }
 )glsl";
 
-static const char* const kEvaluation = R"glsl(#version 450
+static const char* const kEvaluation = R"glsl(
 layout(quads, equal_spacing) in;
 in int own[];
 patch in float total;
@@ -149,7 +167,7 @@ void main()
 }
 )glsl";
 
-static const char* const kFragment = R"glsl(#version 450
+static const char* const kFragment = R"glsl(
 out vec4 colour;
 void main()
 {
@@ -159,11 +177,13 @@ void main()
 
 static void useGeometry(const char* text) {
   glUseProgram(
-      linkStages({{GL_VERTEX_SHADER, kVertex}, {GL_GEOMETRY_SHADER, text}, {GL_FRAGMENT_SHADER, kFragment}}));
+      link({{GL_VERTEX_SHADER, kVertex}, {GL_GEOMETRY_SHADER, text}, {GL_FRAGMENT_SHADER, kFragment}}));
 }
 
-int main() {
-  OsmesaContext context(OsmesaContext::Profile::core, 4, 5);
+int main(int argc, char** argv) {
+  const bool old = argc > 1 && std::string(argv[1]) == "4.1";
+  if (old) version = "#version 400";
+  OsmesaContext context(OsmesaContext::Profile::core, 4, old ? 1 : 5);
   GLuint vertex_array = 0;
   glGenVertexArrays(1, &vertex_array);
   glBindVertexArray(vertex_array);
@@ -175,12 +195,13 @@ int main() {
   glDrawArrays(GL_POINTS, 0, 4);
   useGeometry(kLines);
   glDrawArraysInstanced(GL_POINTS, 0, 3, 2);
-  glUseProgram(linkStages({{GL_VERTEX_SHADER, kVertex},
-                           {GL_TESS_CONTROL_SHADER, kControl},
-                           {GL_TESS_EVALUATION_SHADER, kEvaluation},
-                           {GL_FRAGMENT_SHADER, kFragment}}));
+  glUseProgram(link({{GL_VERTEX_SHADER, kVertex},
+                     {GL_TESS_CONTROL_SHADER, kControl},
+                     {GL_TESS_EVALUATION_SHADER, kEvaluation},
+                     {GL_FRAGMENT_SHADER, kFragment}}));
   glPatchParameteri(GL_PATCH_VERTICES, 4);
   glDrawArrays(GL_PATCHES, 0, 12);
+  glDrawArraysInstanced(GL_PATCHES, 0, 12, 2);
   glFinish();
   return glGetError() == GL_NO_ERROR ? 0 : 1;
 }

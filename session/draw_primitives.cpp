@@ -1,0 +1,171 @@
+#include "session/draw_primitives.h"
+
+#include <algorithm>
+
+namespace shadestep::session {
+namespace {
+
+using instrumenter::Probe;
+
+constexpr std::uint32_t kPatches = 0xE;  // GL_PATCHES
+
+[[noreturn]] void cannotTell(const std::string& reason) {
+  throw Error(Outcome::cannot_debug, "which primitive made which fragment cannot be told: " + reason);
+}
+
+bool has(const DrawFacts& facts, Stage stage) {
+  return std::any_of(facts.stages.begin(), facts.stages.end(),
+                     [stage](const StageFacts& one) { return one.stage == stage; });
+}
+
+frontend::Type integer() {
+  frontend::Type type;
+  type.basic = frontend::Basic::int_;
+  return type;
+}
+
+// At the start of main.
+Probe startProbe(const frontend::Shader& shader, const std::string& watched) {
+  Probe probe;
+  probe.statement = shader.functions[static_cast<std::size_t>(shader.main)].body;
+  if (!watched.empty()) probe.watches.push_back({watched, frontend::kNone, integer()});
+  return probe;
+}
+
+// Vertices of a patch of the draw.
+int patchVertices(Session& session) {
+  session.select(has(session.facts(), Stage::tess_control) ? Stage::tess_control : Stage::tess_eval);
+  session.requireCapturable();
+  const ThreadValues threads = valuesAt(session, startProbe(session.shader(), "gl_PatchVerticesIn"));
+  for (std::size_t t = 0; t < threads.marks.size(); ++t)
+    if (threads.reachedAt(t)) return static_cast<std::int32_t>(*threads.values.at(0).at(t));
+  cannotTell("the draw runs no patch");
+}
+
+}  // namespace
+
+void requireNumberedPrimitives(Session& session) {
+  const DrawFacts& facts = session.facts();
+  const DrawStop& stop = session.stop();
+  if (has(facts, Stage::geometry))
+    cannotTell("the program has a geometry shader; 'shadestep primitives' shows what it makes of each");
+  if (!drawsOnce(stop))
+    cannotTell("the draw has several instances, or is several draws, whose primitives have the same numbers");
+  for (const auto& [name, value] : session.glState()) {
+    const bool restarts = name == "GL_PRIMITIVE_RESTART" || name == "GL_PRIMITIVE_RESTART_FIXED_INDEX";
+    if (restarts && value != "0" && stop.call.find("Elements") != std::string::npos)
+      cannotTell("the draw restarts its primitives");
+  }
+}
+
+ThreadValues primitivesOnPixels(Session& session) {
+  requireNumberedPrimitives(session);
+  session.select(Stage::fragment);
+  session.requireCapturable();
+  const frontend::Shader& shader = session.shader();
+  if (shader.version < 150 || (shader.profile == "es" && shader.version < 320))
+    cannotTell("its shader's GLSL " + std::to_string(shader.version) + " has no gl_PrimitiveID");
+  return valuesAt(session, startProbe(shader, "gl_PrimitiveID"));
+}
+
+void addPrimitiveCheck(Check& to, const Check& check) {
+  if (check.compared_at_all && !check.identical())
+    cannotTell("the instrumented draw differs from the program's own");
+  to.merge(check);
+}
+
+// A capture by transform feedback lists the vertices as the draw issues them.
+DrawPrimitives::DrawPrimitives(Session& session) : mode_(session.stop().mode) {
+  requireNumberedPrimitives(session);
+  if (mode_ > 0x6 && mode_ != kPatches)
+    cannotTell("only points, lines, triangles and patches are followed to their vertices");
+  if (mode_ == kPatches) patch_ = patchVertices(session);
+  session.select(Stage::vertex);
+  session.requireCapturable();
+  auto instrumented =
+      instrumenter::instrumentSingle(session.shader(), startProbe(session.shader(), ""), session.target());
+  if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) cannotTell(failure->reason);
+  const Captured issued = session.capture(std::get<instrumenter::AttachmentShader>(instrumented));
+  if (issued.layout.carrier == instrumenter::Carrier::list || issued.layout.identity.empty())
+    cannotTell("this needs transform feedback, and gl_VertexID in the vertex shader");
+  addPass(vertices_, issued.threads, issued.layout, issued.execution.check);
+  addPrimitiveCheck(vertices_.check, issued.execution.check);
+}
+
+std::size_t DrawPrimitives::count() const {
+  const int vertices = vertices_.width;
+  const auto primitives = [&] {
+    switch (mode_) {
+      case 0x0:  // GL_POINTS
+      case 0x2:  // GL_LINE_LOOP
+        return vertices;
+      case 0x1:  // GL_LINES
+        return vertices / 2;
+      case 0x3:  // GL_LINE_STRIP
+        return vertices - 1;
+      case 0x4:  // GL_TRIANGLES
+        return vertices / 3;
+      case 0x5:  // GL_TRIANGLE_STRIP
+      case 0x6:  // GL_TRIANGLE_FAN
+        return vertices - 2;
+      default:
+        return patch_ > 0 ? vertices / patch_ : 0;
+    }
+  };
+  return static_cast<std::size_t>(std::max(primitives(), 0));
+}
+
+// Where in the draw's sequence of vertices those of a primitive stand (OpenGL 4.6, 10.1).
+std::vector<int> DrawPrimitives::placesOf(int p) const {
+  switch (mode_) {
+    case 0x0:
+      return {p};
+    case 0x1:
+      return {2 * p, 2 * p + 1};
+    case 0x2:
+      return {p, (p + 1) % std::max(vertices_.width, 1)};
+    case 0x3:
+      return {p, p + 1};
+    case 0x4:
+      return {3 * p, 3 * p + 1, 3 * p + 2};
+    case 0x5:
+      return {p, p + 1, p + 2};
+    case 0x6:
+      return {0, p + 1, p + 2};
+    default:
+      break;
+  }
+  std::vector<int> places;
+  for (int i = 0; i < patch_; ++i) places.push_back(p * patch_ + i);
+  return places;
+}
+
+std::vector<ThreadName> DrawPrimitives::verticesOf(int primitive) const {
+  std::vector<ThreadName> names;
+  for (const int place : placesOf(primitive)) {
+    if (place >= vertices_.width) cannotTell("the draw has fewer vertices than its primitives need");
+    ThreadName name;
+    for (const WatchedValues& one : vertices_.identity)
+      name.emplace_back(one.name, static_cast<std::int32_t>(*one.at(static_cast<std::size_t>(place))));
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::vector<int> DrawPrimitives::primitivesWith(const ThreadName& vertex) const {
+  const std::size_t first = requireThread(vertices_, vertex);
+  std::vector<std::uint8_t> same(vertices_.marks.size(), 0);
+  for (std::size_t t = 0; t < same.size(); ++t)
+    same[t] = std::all_of(vertices_.identity.begin(), vertices_.identity.end(),
+                          [&](const WatchedValues& one) { return *one.at(t) == *one.at(first); });
+  std::vector<int> primitives;
+  for (int p = 0; p < static_cast<int>(count()); ++p) {
+    const std::vector<int> places = placesOf(p);
+    if (std::any_of(places.begin(), places.end(),
+                    [&](int place) { return same[static_cast<std::size_t>(place)] != 0; }))
+      primitives.push_back(p);
+  }
+  return primitives;
+}
+
+}  // namespace shadestep::session

@@ -1,0 +1,45 @@
+// The primitives that a draw is made of, their vertices, and their fragments.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "session/session.h"
+#include "session/thread_values.h"
+
+namespace shadestep::session {
+
+// Throws cannot_debug where gl_PrimitiveID does not tell primitives apart: with a geometry shader, for
+// several instances, for draws that restart their primitives or are several in one.
+void requireNumberedPrimitives(Session&);
+
+// gl_PrimitiveID of every visible fragment: the primitive, or the patch, of the draw; the first of `values`.
+// Selects the fragment stage. Throws as above, and below GLSL 1.50.
+ThreadValues primitivesOnPixels(Session&);
+
+// Adds a check to that of a result. Throws cannot_debug if the outputs differ.
+void addPrimitiveCheck(Check& to, const Check&);
+
+// The vertices of a draw as it issues them, and which of them its primitives consist of.
+class DrawPrimitives {
+ public:
+  // Selects the vertex stage, and an earlier one of patches. Throws cannot_debug where transform feedback
+  // does not capture the vertices in that order, for quads and polygons, and as requireNumberedPrimitives.
+  explicit DrawPrimitives(Session&);
+
+  std::size_t count() const;
+  // In the order of the primitive's vertices. Throws cannot_debug if the draw has fewer.
+  std::vector<ThreadName> verticesOf(int primitive) const;
+  // The primitives that the vertex is one of, ascending. Throws nothing_matches, saying what there is.
+  std::vector<int> primitivesWith(const ThreadName& vertex) const;
+  const Check& check() const { return vertices_.check; }
+
+ private:
+  std::vector<int> placesOf(int primitive) const;
+
+  std::uint32_t mode_ = 0;
+  int patch_ = 0;          // vertices of a patch
+  ThreadValues vertices_;  // not yet one of each
+};
+
+}  // namespace shadestep::session

@@ -1,0 +1,67 @@
+// What the OpenGL ES programs share: a context on EGL without a surface, and a small renderbuffer to draw to.
+#pragma once
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GLES3/gl32.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <initializer_list>
+#include <utility>
+
+// A context of OpenGL ES 3.MINOR, current while it lives, with a target of SIZE x SIZE pixels.
+class EsContext {
+ public:
+  EsContext(int minor, int size) {
+    display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                             EGL_NONE};
+    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, minor, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint configs = 0;
+    if (!eglInitialize(display_, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_ES_API) ||
+        !eglChooseConfig(display_, wanted, &config, 1, &configs) || configs == 0) {
+      std::fprintf(stderr, "no OpenGL ES on EGL\n");
+      std::exit(1);
+    }
+    EGLContext context = eglCreateContext(display_, config, EGL_NO_CONTEXT, version);
+    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) std::exit(1);
+    GLuint framebuffer = 0;
+    GLuint target = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glGenRenderbuffers(1, &target);
+    glBindRenderbuffer(GL_RENDERBUFFER, target);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size, size);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
+    glViewport(0, 0, size, size);
+  }
+  ~EsContext() {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglTerminate(display_);
+  }
+  EsContext(const EsContext&) = delete;
+  EsContext& operator=(const EsContext&) = delete;
+
+ private:
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+};
+
+// In use. Ends the program with status 1 if the driver refuses it.
+inline void useEsProgram(std::initializer_list<std::pair<GLenum, const char*>> stages) {
+  const GLuint program = glCreateProgram();
+  for (const auto& [stage, text] : stages) {
+    const GLuint shader = glCreateShader(stage);
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
+  }
+  glLinkProgram(program);
+  glUseProgram(program);
+  if (glGetError() == GL_NO_ERROR) return;
+  char log[1024] = "";
+  glGetProgramInfoLog(program, sizeof log, nullptr, log);
+  std::fprintf(stderr, "the program does not link: %s\n", log);
+  std::exit(1);
+}
