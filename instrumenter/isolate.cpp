@@ -1,7 +1,10 @@
-// One fragment's work, everywhere (thesis 7.2.1).
-#include "instrumenter/constructs/fragment_inputs.h"
+// One thread's work, everywhere (thesis 7.2.1).
+#include <algorithm>
+#include <string_view>
+
 #include "instrumenter/constructs/fragment_outputs.h"
 #include "instrumenter/constructs/main.h"
+#include "instrumenter/constructs/thread_inputs.h"
 #include "instrumenter/measures.h"
 #include "instrumenter/words.h"
 
@@ -105,7 +108,7 @@ std::string fromWords(const Draft& draft, Basic basic, bool floats, const std::s
 }
 
 // Statements that set every input from the uniform; completes `isolated`.
-std::string setInputs(Draft& draft, const std::vector<FragmentInput>& inputs, const Target& target,
+std::string setInputs(Draft& draft, const std::vector<ThreadInput>& inputs, const Target& target,
                       Isolation mode, IsolatedShader& isolated, Failure& failure) {
   const Shader& shader = draft.shader();
   if (inputs.empty()) return "";
@@ -115,7 +118,7 @@ std::string setInputs(Draft& draft, const std::vector<FragmentInput>& inputs, co
   }
   isolated.floats = shader.version < 130 || (!draft.es() && shader.version < 330 && !target.bit_encoding);
   int words = 0;
-  for (const FragmentInput& input : inputs) {
+  for (const ThreadInput& input : inputs) {
     if (isolated.floats && input.type.basic != Basic::float_ && input.type.basic != Basic::bool_) {
       failure.reason = "The input '" + input.input + "' is a " + frontend::glslName(input.type) +
                        ", which needs GL_ARB_shader_bit_encoding to be handed over.";
@@ -155,7 +158,7 @@ std::string setInputs(Draft& draft, const std::vector<FragmentInput>& inputs, co
     ++word;
     return text;
   };
-  for (const FragmentInput& input : inputs)
+  for (const ThreadInput& input : inputs)
     for (const Component& component : frontend::components(input.type)) {
       Type scalar;
       scalar.basic = component.basic;
@@ -169,13 +172,40 @@ std::string setInputs(Draft& draft, const std::vector<FragmentInput>& inputs, co
 
 }  // namespace
 
-Result<IsolatedShader> instrumentIsolate(const Shader& shader, const Target& target, Isolation mode) {
-  if (shader.stage != frontend::Stage::fragment)
-    return Failure{"Only fragment shaders can be isolated; choose --stage fragment."};
+namespace {
+
+// Why no thread of this shader can do its work alone; empty if it can.
+std::string whyNotAlone(const Shader& shader) {
+  if (shader.stage != frontend::Stage::fragment && shader.stage != frontend::Stage::vertex &&
+      shader.stage != frontend::Stage::compute)
+    return "Only fragments, vertices and invocations of compute shaders can be isolated: threads of other "
+           "stages read "
+           "what others of their primitive left.";
+  const auto uses = [&shader](std::string_view word) {
+    return std::any_of(shader.tokens.begin(), shader.tokens.end(),
+                       [word](const Token& token) { return token.text == word; });
+  };
+  if (shader.stage == frontend::Stage::compute && (uses("shared") || uses("barrier")))
+    return "The shader's invocations work together (shared memory, barriers): alone, one would do something "
+           "else.";
+  return "";
+}
+
+// The text with a main that does nothing, so that all else is the same.
+Result<std::string> withoutWork(const Shader& shader) {
   Draft draft(shader);
-  auto inputs = fragmentInputs(draft);
+  wrapMain(draft, "  return;\n", "");
+  return draft.finish();
+}
+
+}  // namespace
+
+Result<IsolatedShader> instrumentIsolate(const Shader& shader, const Target& target, Isolation mode) {
+  if (std::string reason = whyNotAlone(shader); !reason.empty()) return Failure{std::move(reason)};
+  Draft draft(shader);
+  auto inputs = threadInputs(draft);
   if (auto* failure = std::get_if<Failure>(&inputs)) return *failure;
-  const auto& found = std::get<std::vector<FragmentInput>>(inputs);
+  const auto& found = std::get<std::vector<ThreadInput>>(inputs);
   IsolatedShader isolated;
   replaceInputs(draft, found);
   Failure failure;
@@ -185,6 +215,12 @@ Result<IsolatedShader> instrumentIsolate(const Shader& shader, const Target& tar
   auto text = draft.finish();
   if (auto* refused = std::get_if<Failure>(&text)) return *refused;
   isolated.text = std::move(std::get<std::string>(text));
+  if (shader.stage != frontend::Stage::fragment) {
+    auto empty = withoutWork(shader);
+    if (auto* refused = std::get_if<Failure>(&empty)) return *refused;
+    isolated.baseline_text = std::move(std::get<std::string>(empty));
+    return isolated;
+  }
   isolated.baseline_text = onlyOutputs(shader, target, "", "", "0.0");
   isolated.work_uniform = draft.name("work");
   isolated.work_text = knownWork(shader, target, isolated.work_uniform);
@@ -197,9 +233,9 @@ Probe inputsProbe(const Shader& shader) {
   if (shader.main != frontend::kNone)
     probe.statement = shader.functions[static_cast<std::size_t>(shader.main)].body;
   const Draft draft(shader);
-  const auto inputs = fragmentInputs(draft);
-  if (const auto* found = std::get_if<std::vector<FragmentInput>>(&inputs))
-    for (const FragmentInput& input : *found)
+  const auto inputs = threadInputs(draft);
+  if (const auto* found = std::get_if<std::vector<ThreadInput>>(&inputs))
+    for (const ThreadInput& input : *found)
       probe.watches.push_back(frontend::Watch{input.input, frontend::kNone, input.type});
   return probe;
 }

@@ -5,6 +5,7 @@
 #include "instrumenter/attachments.h"
 #include "instrumenter/constructs/condition.h"
 #include "instrumenter/constructs/loop.h"
+#include "instrumenter/constructs/main.h"
 #include "instrumenter/constructs/statement.h"
 #include "instrumenter/measures.h"
 
@@ -38,8 +39,7 @@ class Measures {
   // The same with a counter of its own, which starts at zero.
   std::string addCounter(const std::string& name) {
     const std::string counter = draft_.name("count" + std::to_string(values_.size()));
-    draft_.declare(draft_.highp() + "int " + counter + ";");
-    start_ += "  " + counter + " = 0;\n";
+    draft_.declare(draft_.highp() + "int " + counter + " = 0;");
     add(name, counter);
     return counter;
   }
@@ -49,17 +49,28 @@ class Measures {
   Result<AttachmentShader> finish(const std::string& start = "", const std::string& end = "") {
     if (!failure_.empty()) return Failure{failure_};
     attachments_.declare();
-    attachments_.frame(start_ + start,
-                       end + "  " + attachments_.assign(kLaunched | kReached, values_) + ";\n");
+    attachments_.frame(start, end + assign());
+    return text();
+  }
+  // The thread does these statements instead of the shader's own.
+  Result<AttachmentShader> finishInstead(const std::string& statements) {
+    if (!failure_.empty()) return Failure{failure_};
+    attachments_.declare();
+    wrapMain(draft_, statements + assign() + attachments_.write() + "  return;\n", "");
+    return text();
+  }
+
+ private:
+  std::string assign() const { return "  " + attachments_.assign(kLaunched | kReached, values_) + ";\n"; }
+  Result<AttachmentShader> text() {
     auto text = draft_.finish();
     if (auto* failure = std::get_if<Failure>(&text)) return *failure;
     return AttachmentShader{std::move(std::get<std::string>(text)), attachments_.layout()};
   }
 
- private:
   Draft& draft_;
   Attachments attachments_;
-  std::string failure_, start_;
+  std::string failure_;
   std::vector<std::string> values_;
 };
 
@@ -207,31 +218,63 @@ std::optional<ShaderClock> shaderClock(const Target& target) {
   return {};
 }
 
-Result<AttachmentShader> instrumentClock(const Shader& shader, const Target& target) {
-  Draft draft(shader);
-  Measures measures(draft, target);
-  if (draft.es()) return Failure{"GLSL ES has no shader clock; use another method of profiling."};
+namespace {
+
+// The GLSL statements of the two readings of a thread, whose difference is then added to the measures.
+struct Readings {
+  std::string start, end, failure;
+};
+
+Readings addReadings(Draft& draft, Measures& measures, const Target& target) {
+  if (draft.es()) return {"", "", "GLSL ES has no shader clock; use another method of profiling."};
   const std::optional<ShaderClock> clock = shaderClock(target);
   if (!clock)
-    return Failure{
+    return {
+        "", "",
         "This driver has neither GL_ARB_shader_clock nor GL_EXT_shader_realtime_clock; use another method of "
         "profiling."};
   draft.require(clock->extension);
   const std::string start = draft.name("start"), end = draft.name("end"), now = clock->function + "()";
   // Below 1.30 there is no uint: the low words differ by the ticks modulo 2^32, which an int holds as well.
-  if (shader.version < 130) {
+  if (draft.shader().version < 130) {
     draft.declare("int " + start + ", " + end + ";");
     measures.add("low", end + " - " + start);
     measures.add("high", "0");
     measures.add("start_high", "0");
-    return measures.finish("  " + start + " = int(" + now + ".x);\n",
-                           "  " + end + " = int(" + now + ".x);\n");
+    return {"  " + start + " = int(" + now + ".x);\n", "  " + end + " = int(" + now + ".x);\n", ""};
   }
   draft.declare(draft.highp() + "uvec2 " + start + ", " + end + ";");
   measures.add("low", end + ".x - " + start + ".x");
   measures.add("high", end + ".y - " + start + ".y - (" + end + ".x < " + start + ".x ? 1u : 0u)");
   measures.add("start_high", start + ".y");
-  return measures.finish("  " + start + " = " + now + ";\n", "  " + end + " = " + now + ";\n");
+  return {"  " + start + " = " + now + ";\n", "  " + end + " = " + now + ";\n", ""};
+}
+
+}  // namespace
+
+Result<AttachmentShader> instrumentClock(const Shader& shader, const Target& target) {
+  Draft draft(shader);
+  Measures measures(draft, target);
+  const Readings readings = addReadings(draft, measures, target);
+  if (!readings.failure.empty()) return Failure{readings.failure};
+  return measures.finish(readings.start, readings.end);
+}
+
+Result<KnownWork> instrumentKnownWork(const Shader& shader, const Target& target, bool clocked) {
+  Draft draft(shader);
+  Measures measures(draft, target);
+  Readings readings;
+  if (clocked) readings = addReadings(draft, measures, target);
+  if (!readings.failure.empty()) return Failure{readings.failure};
+  const std::string work = draft.name("work"), x = draft.name("x"), i = draft.name("i");
+  const std::string precision = draft.highp();
+  draft.declare("uniform " + precision + "int " + work + ";\n" + precision + "float " + x + ";");
+  measures.add("result", "int(" + x + " * 1000.0)");  // so that no compiler leaves the chain out
+  auto instead = measures.finishInstead(readings.start + "  " + x + " = 0.3;\n  for (int " + i + " = 0; " +
+                                        i + " < " + work + "; ++" + i + ") " + x + " = 3.7 * " + x +
+                                        " * (1.0 - " + x + ");\n" + readings.end);
+  if (auto* failure = std::get_if<Failure>(&instead)) return *failure;
+  return KnownWork{std::move(std::get<AttachmentShader>(instead)), work};
 }
 
 }  // namespace shadestep::instrumenter

@@ -56,7 +56,17 @@ std::optional<ShaderClock> shaderClock(const Target&);
 // "start_high": the upper word of the reading at the start (0 below GLSL 1.30).
 Result<AttachmentShader> instrumentClock(const frontend::Shader&, const Target&);
 
-// Every input of the fragment becomes a variable that the new main sets from uniforms (thesis 7.2.1).
+// Threads of this stage that do known work instead of the shader's own, which they leave out: a chain of as
+// many dependent steps as the int uniform `work_uniform` says; `clocked`: between two readings, with the
+// fields of instrumentClock first. A control shader's threads do their own work after it.
+struct KnownWork {
+  AttachmentShader shader;
+  std::string work_uniform;
+};
+Result<KnownWork> instrumentKnownWork(const frontend::Shader&, const Target&, bool clocked);
+
+// Every input of a fragment, a vertex or an invocation becomes a variable that the new main sets from
+// uniforms (thesis 7.2.1).
 struct IsolatedInput {
   std::string input;  // "texcoord" or "gl_FragCoord", the watch to capture it by
   frontend::Type type;
@@ -70,6 +80,7 @@ enum class Isolation {
 struct IsolatedShader {
   std::string text;           // the user's shader with inputs replaced; nothing is captured
   std::string baseline_text;  // same outputs, empty main: what the draw costs without the shader
+  // Of fragments only, as what follows (of other stages see instrumentKnownWork).
   // Same outputs, and a chain of as many dependent steps as the int uniform `work_uniform` says: known work,
   // to test timers with and to notice that the machine drifts.
   std::string work_text;
@@ -85,6 +96,9 @@ struct IsolatedShader {
 };
 Result<IsolatedShader> instrumentIsolate(const frontend::Shader&, const Target&,
                                          Isolation = Isolation::plain);
+
+// Does a fragment ask for its inputs at another place, so that it can be isolated in its quad only?
+bool readsInputsElsewhere(const frontend::Shader&);
 
 // A probe at the start of main that watches the inputs which instrumentIsolate replaces (none, if that
 // fails).

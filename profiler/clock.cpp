@@ -27,17 +27,11 @@ struct Readings {
 
 // NaN where there is no thread, or the clock went backwards.
 std::vector<double> ticksOf(const session::Captured& captured, const CostMap& map, Readings& readings) {
-  const std::vector<instrumenter::Field>& fields = captured.layout.fields;
-  std::vector<instrumenter::FieldDecoder> decoders;
-  for (std::size_t f = 0; f < 3; ++f) decoders.emplace_back(captured.layout, fields.at(f));
-  std::vector<std::uint32_t> words(static_cast<std::size_t>(captured.threads.words()));
+  const TickReader reader(captured);
   std::vector<double> ticks(map.cost.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < ticks.size(); ++i) {
     if (map.state[i] != PixelState::measured) continue;
-    captured.threads.read(i, words.data());
-    std::uint32_t value[3];
-    for (std::size_t f = 0; f < 3; ++f) decoders[f].decode(words.data(), &value[f]);
-    const ClockTicks t = clockTicks(value[0], value[1], value[2]);
+    const ClockTicks t = reader.at(i);
     if (t.kind == ClockTicks::Kind::backwards)
       ++readings.backwards;
     else
@@ -45,6 +39,17 @@ std::vector<double> ticksOf(const session::Captured& captured, const CostMap& ma
     readings.wrapped += t.kind == ClockTicks::Kind::wrapped ? 1 : 0;
   }
   return ticks;
+}
+
+// Threads of other stages are told apart by their names alone: every pass must have the same ones in the same
+// places.
+void requireSameThreads(const session::Captured& captured, const Profile& profile) {
+  if (profile.stage == session::Stage::fragment || threadsOf(captured).numbers == profile.threads.numbers)
+    return;
+  throw session::Error(
+      session::Outcome::failed,
+      "two passes of the clock disagree about which threads ran; the draw does not repeat exactly, so "
+      "its costs cannot be trusted");
 }
 
 void explain(Profile& profile, const instrumenter::ShaderClock& clock, const Readings& readings) {
@@ -55,9 +60,10 @@ void explain(Profile& profile, const instrumenter::ShaderClock& clock, const Rea
   if (profile.grain == Grain{})
     profile.notes.push_back("No threads were seen to share a clock.");
   else
-    profile.notes.push_back(
-        "Grain: " + std::to_string(profile.grain.width) + " x " + std::to_string(profile.grain.height) +
-        " pixels read the same clock because they run in step; each pays for the slowest.");
+    profile.notes.push_back("Grain: " + std::to_string(profile.grain.width) + " x " +
+                            std::to_string(profile.grain.height) +
+                            (profile.stage == session::Stage::fragment ? " pixels" : " threads") +
+                            " read the same clock because they run in step; each pays for the slowest.");
   if (readings.wrapped > 0)
     profile.notes.push_back("The clock ran over during " + std::to_string(readings.wrapped) +
                             " of the readings; this was undone.");
@@ -77,29 +83,29 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
         "the driver (" + session.facts().renderer +
             ") has neither GL_ARB_shader_clock nor GL_EXT_shader_realtime_clock; use --method "
             "isolate or --method count");
-  const ClockTest test = testShaderClock(session, *clock);
+  const ClockTest test = testShaderClock(session);
   if (!test.trusted) throw session::Error(session::Outcome::cannot_debug, test.reason);
 
   Profile profile;
   profile.method = Method::clock;
   profile.unit = "ticks";
   profile.yardstick = test.step;
-  const auto result =
-      instrumenter::instrumentClock(session.shader(session::Stage::fragment), session.target());
+  const auto result = instrumenter::instrumentClock(session.shader(), session.target());
   const instrumenter::AttachmentShader& shader = orThrow(result);
   const session::Prepared prepared = session.prepare(shader);
 
-  // The first draw of a new program carries the driver's compilation; it gives the covered pixels and the
-  // check.
+  // The first draw of a new program carries the driver's compilation; it gives the threads and the check.
   const session::Captured first = drawOnce(session, prepared, shader.layout, true);
   profile.check = first.execution.check;
-  profile.map = coveredPixels(first, options);
+  placeThreads(session.stage(), first, options, profile);
   Readings readings;
   std::vector<std::vector<double>> passes;
   Passes combined;
   const auto wanted = static_cast<std::size_t>(std::max(options.passes, 2));
   for (;;) {
-    passes.push_back(ticksOf(drawOnce(session, prepared, shader.layout, false), profile.map, readings));
+    const session::Captured pass = drawOnce(session, prepared, shader.layout, false);
+    requireSameThreads(pass, profile);
+    passes.push_back(ticksOf(pass, profile.map, readings));
     profile.interrupted = options.stop && options.stop();
     if (options.progress)
       options.progress(std::min(1.0, static_cast<double>(passes.size()) / static_cast<double>(wanted + 2)));
@@ -114,11 +120,12 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
   profile.spread = combined.spread;
   profile.map.cost = combined.cost;
   profile.uncertainty = combined.uncertainty;
+  profile.halves = combined.halves;
   profile.grain = detectGrain(profile.map, passes.front());
 
   if (options.lines) {
     const Counts counts = countAll(session, profile.map, profile.check);
-    describeWork(session.shader(session::Stage::fragment), counts, profile);
+    describeWork(session.shader(), counts, profile);
     describeLoops(session, profile);
   }
   if (options.progress) options.progress(1);

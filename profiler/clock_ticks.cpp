@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "profiler/profile_parts.h"
 #include "profiler/statistics.h"
 
 namespace shadestep::profiler {
@@ -14,45 +15,18 @@ namespace {
 constexpr std::uint32_t kGlInt = 0x1404;
 constexpr int kWork = 200;  // steps; enough to dwarf the reading of the clock, and a few milliseconds a draw
 
-// A fragment shader of known work: a chain of dependent steps that no compiler can shorten, between two
-// readings.
-instrumenter::AttachmentShader knownWork(const frontend::Shader& shader,
-                                         const instrumenter::ShaderClock& clock) {
-  std::ostringstream text;
-  text << "#version " << std::max(shader.version, 130);
-  if (shader.version >= 150 && !shader.profile.empty()) text << " " << shader.profile;
-  text << "\n#extension " << clock.extension << " : require\n#define SD_NOW " << clock.function << "()"
-       << R"(
-uniform int sd_work;
-out uvec4 sd_capture0;
-void main() {
-  uvec2 start = SD_NOW;
-  float x = 0.3;
-  for (int i = 0; i < sd_work; ++i) x = 3.7 * x * (1.0 - x);
-  uvec2 end = SD_NOW;
-  sd_capture0 = uvec4(1u, end.x - start.x, end.y - start.y - (end.x < start.x ? 1u : 0u), uint(x * 1000.0));
-}
-)";
-  instrumenter::AttachmentLayout layout;
-  layout.words = 4;
-  layout.outputs = {"sd_capture0"};
-  const frontend::Type uint_type{frontend::Basic::uint_, 1, 1, {}, nullptr, {}};
-  layout.fields = {{"low", uint_type, 1}, {"high", uint_type, 2}};
-  return {text.str(), layout};
-}
-
 // The median ticks over all threads of a draw with this much work.
 double ticksFor(session::Session& session, const session::Prepared& prepared,
-                const instrumenter::AttachmentLayout& layout, int work) {
+                const instrumenter::KnownWork& clocked, int work) {
   session::ExecuteOptions execute;
   execute.compare = false;
-  execute.uniforms = {{"sd_work", kGlInt, {static_cast<std::uint32_t>(work)}}};
-  const session::ThreadWords threads = session::threadWords(session.execute(prepared, execute), layout.words);
+  execute.uniforms = {{clocked.work_uniform, kGlInt, {static_cast<std::uint32_t>(work)}}};
+  const session::Captured captured = session.capture(prepared, clocked.shader.layout, execute);
+  const TickReader reader(captured);
   std::vector<double> ticks;
-  for (std::size_t i = 0; i < threads.count(); ++i) {
-    const std::uint32_t* words = threads.head(i);
-    if (words[0] == 1) ticks.push_back(static_cast<double>(clockTicks(words[1], words[2], 0).ticks));
-  }
+  for (std::size_t i = 0; i < captured.threads.count(); ++i)
+    if (instrumenter::decodeMark(captured.layout, captured.threads.head(i)) != 0)
+      ticks.push_back(static_cast<double>(reader.at(i).ticks));
   return median(std::move(ticks));
 }
 
@@ -67,6 +41,18 @@ ClockTicks clockTicks(std::uint32_t low, std::uint32_t high, std::uint32_t start
     if (in_use && undone >= 0) return {static_cast<std::uint64_t>(undone), ClockTicks::Kind::wrapped};
   }
   return {0, ClockTicks::Kind::backwards};
+}
+
+TickReader::TickReader(const session::Captured& captured)
+    : threads_(captured.threads), words_(static_cast<std::size_t>(threads_.words())) {
+  for (std::size_t f = 0; f < 3; ++f) decoders_.emplace_back(captured.layout, captured.layout.fields.at(f));
+}
+
+ClockTicks TickReader::at(std::size_t thread) const {
+  threads_.read(thread, words_.data());
+  std::uint32_t value[3];
+  for (std::size_t f = 0; f < 3; ++f) decoders_[f].decode(words_.data(), &value[f]);
+  return clockTicks(value[0], value[1], value[2]);
 }
 
 namespace {
@@ -136,6 +122,7 @@ Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
   }
   result.cost.resize(pixels);
   result.uncertainty.resize(pixels);
+  result.halves = {std::vector<double>(pixels), std::vector<double>(pixels)};
   std::vector<double> spreads;
   std::vector<double> deviations;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -143,8 +130,11 @@ Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
     if (std::isnan(cost)) continue;
     result.cost[i] = cost;
     if (!(cost > 0)) continue;
-    const double half =
-        std::abs(medianOf(ticks, scale, i, 0, 2) - medianOf(ticks, scale, i, 1, 2)) / cost / 2;
+    const double even = medianOf(ticks, scale, i, 0, 2);
+    const double odd = medianOf(ticks, scale, i, 1, 2);
+    const double half = std::abs(even - odd) / cost / 2;
+    result.halves.even[i] = std::isnan(even) ? cost : even;
+    result.halves.odd[i] = std::isnan(odd) ? cost : odd;
     if (!std::isnan(half)) spreads.push_back(half);
     deviations.clear();
     for (std::size_t pass = 0; pass < ticks.size(); ++pass)
@@ -173,10 +163,11 @@ ClockTest judgeClock(double once, double twice, double thrice, int steps) {
   return test;
 }
 
-ClockTest testShaderClock(session::Session& session, const instrumenter::ShaderClock& clock) {
-  const instrumenter::AttachmentShader shader = knownWork(session.shader(session::Stage::fragment), clock);
-  const session::Prepared prepared = session.prepare(shader);
-  ticksFor(session, prepared, shader.layout, kWork);  // the driver compiles
+ClockTest testShaderClock(session::Session& session) {
+  const auto result = instrumenter::instrumentKnownWork(session.shader(), session.target(), true);
+  const instrumenter::KnownWork& clocked = orThrow(result);
+  const session::Prepared prepared = session.prepare(clocked.shader);
+  ticksFor(session, prepared, clocked, kWork);  // the driver compiles
   // In turns, so that a slow moment meets all three; the fastest counts.
   constexpr int kRounds = 4;
   std::array<double, 3> ticks;
@@ -184,8 +175,7 @@ ClockTest testShaderClock(session::Session& session, const instrumenter::ShaderC
   ClockTest test;
   for (int round = 0; round < kRounds && !test.trusted; ++round) {
     for (std::size_t i = 0; i < ticks.size(); ++i)
-      ticks[i] =
-          std::min(ticks[i], ticksFor(session, prepared, shader.layout, kWork * static_cast<int>(i + 1)));
+      ticks[i] = std::min(ticks[i], ticksFor(session, prepared, clocked, kWork * static_cast<int>(i + 1)));
     test = judgeClock(ticks[0], ticks[1], ticks[2], kWork);
   }
   return test;

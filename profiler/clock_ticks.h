@@ -29,6 +29,18 @@ struct ClockTicks {
 // range: two overflows cannot be told from one.
 ClockTicks clockTicks(std::uint32_t low, std::uint32_t high, std::uint32_t start_high);
 
+// The ticks of each thread of a pass of instrumentClock or instrumentKnownWork. Keeps a reference to it.
+class TickReader {
+ public:
+  explicit TickReader(const session::Captured&);
+  ClockTicks at(std::size_t thread) const;
+
+ private:
+  const session::ThreadWords& threads_;
+  std::vector<instrumenter::FieldDecoder> decoders_;
+  mutable std::vector<std::uint32_t> words_;
+};
+
 // The largest aligned group of pixels (powers of two, up to 32 x 8) of which nearly all groups show the same
 // ticks in all their pixels in one pass: they run in step. `ticks`: per pixel of the map; pixels without a
 // thread count for nothing, NaN neither. 1 x 1 if ticks do not tell.
@@ -39,6 +51,7 @@ Grain detectGrain(const CostMap&, const std::vector<double>& ticks);
 struct Passes {
   std::vector<double> cost;         // per pixel; 0 where no pass has one
   std::vector<double> uncertainty;  // per pixel: 95% half width
+  Halves halves;                    // even and odd passes
   double spread = 0;                // see Profile::spread
 };
 Passes combinePasses(const std::vector<std::vector<double>>& ticks);
@@ -53,8 +66,8 @@ struct ClockTest {
 // Of the ticks that one, two and three times the same work of `steps` steps took.
 ClockTest judgeClock(double once, double twice, double thrice, int steps);
 
-// Runs N and 2N steps of known work in place of the current draw's fragment shader, and looks whether the
-// clock runs in proportion. Throws session::Error if the draw cannot be captured.
-ClockTest testShaderClock(session::Session&, const instrumenter::ShaderClock&);
+// Has the threads of the selected stage do one, two and three times the same known work at the current draw,
+// and looks whether the clock runs in proportion. Throws session::Error if the draw cannot be captured.
+ClockTest testShaderClock(session::Session&);
 
 }  // namespace shadestep::profiler

@@ -1,5 +1,8 @@
 #include "profiler/cost_map.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "profiler/statistics.h"
 
 namespace shadestep::profiler {
@@ -12,13 +15,20 @@ std::vector<double> CostMap::costs(bool measured_only) const {
   return values;
 }
 
-CostMap costPerIteration(const CostMap& map, const std::vector<std::uint32_t>& iterations) {
-  CostMap result(map.width, map.height);
+PerIteration costPerIteration(const CostMap& map, const std::vector<std::uint32_t>& iterations) {
+  PerIteration result{CostMap(map.width, map.height), 0};
+  std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < map.cost.size(); ++i) {
-    if (map.state[i] != PixelState::measured || iterations[i] == 0) continue;
-    result.state[i] = PixelState::measured;
-    result.cost[i] = map.cost[i] / iterations[i];
+    if (map.state[i] == PixelState::none || iterations[i] == 0) continue;
+    result.map.state[i] = map.state[i];
+    if (map.state[i] == PixelState::measured) points.emplace_back(iterations[i], map.cost[i]);
   }
+  // Without two numbers of iterations nothing tells them from the start.
+  const Line line = robustLine(std::move(points));
+  if (line.slope > 0) result.start = std::max(0.0, line.start);
+  for (std::size_t i = 0; i < map.cost.size(); ++i)
+    if (result.map.state[i] == PixelState::measured)
+      result.map.cost[i] = std::max(0.0, map.cost[i] - result.start) / iterations[i];
   return result;
 }
 

@@ -33,15 +33,29 @@ struct CostMap {
   std::vector<double> costs(bool measured_only = false) const;
 };
 
-// The costs over iterations of a loop, of the measured pixels that have any; no other pixel has a cost. What
-// is left there is what iterations alone do not explain (thesis fig. 7.9 e, h).
-CostMap costPerIteration(const CostMap&, const std::vector<std::uint32_t>& iterations);
+// What one iteration of a loop costs each measured pixel that iterates: what is left where iterations alone
+// do not explain the cost (thesis fig. 7.9 e, h). What every thread costs before its first iteration is taken
+// off first: `start`, found by Theil's and Sen's line through cost over iterations, the median of the slopes
+// between pairs. Other pixels that iterate are `reconstructed`, without a cost: not measured. No other has a
+// state.
+struct PerIteration {
+  CostMap map;
+  double start = 0;
+};
+PerIteration costPerIteration(const CostMap&, const std::vector<std::uint32_t>& iterations);
+
+// What the even and what the odd repeats of a measurement alone say of each pixel: how well it repeats
+// itself. Empty: it is exact.
+struct Halves {
+  std::vector<double> even, odd;
+};
 
 // Spearman's rho of the costs at the pixels measured in both maps, and how many these are. Maps of different
 // sizes have none in common. NaN as in spearman().
 struct RankAgreement {
   double rho = 0;
   std::size_t pixels = 0;
+  double most = 1;  // that the noise of the two lets be seen, where that is known
 };
 RankAgreement rankAgreement(const CostMap&, const CostMap&);
 

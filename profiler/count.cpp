@@ -10,17 +10,11 @@ Profile profileCount(session::Session& session, const ProfileOptions& options) {
   Profile profile;
   profile.method = Method::count;
   profile.unit = "statements";
-  profile.stage = session.stage();
   const auto shader = instrumenter::instrumentCount(source, {}, session.target());
   const session::Captured captured = session.capture(orThrow(shader));
   profile.check = captured.execution.check;
-  if (profile.stage == session::Stage::fragment) {
-    profile.grain = {2, 2};
-    profile.map = coveredPixels(captured, options);
-  } else {
-    profile.threads = threadsOf(captured);
-    profile.map = foldThreads(captured, profile.threads);
-  }
+  placeThreads(session.stage(), captured, options, profile);
+  if (profile.stage == session::Stage::fragment) profile.grain = {2, 2};
 
   const instrumenter::Field& steps = captured.layout.fields.at(0);
   const instrumenter::FieldDecoder decoder(captured.layout, steps);

@@ -25,37 +25,73 @@ double lowerQuartile(const std::vector<double>& repeats, std::size_t first, std:
   return quantile(std::move(some), 0.25);
 }
 
+// What is taken off a draw's time, in proportion to it and in any case.
+struct Fixed {
+  double share = 0, start = 0;
+  double of(double time) const { return share * time + start; }
+};
+
+using Repeats = std::vector<std::vector<double>>;  // [pixel]
+
+Fixed fixedCost(const Repeats& large, const Repeats& small, double writing) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < large.size(); ++i)
+    if (!large[i].empty() && !small[i].empty())
+      points.emplace_back(lowerQuartile(large[i], 0, 1), lowerQuartile(small[i], 0, 1));
+  const Line line = robustLine(std::move(points));
+  return {std::clamp(line.slope, 0.0, 0.9), line.start + writing};
+}
+
 }  // namespace
 
 Timings combine(const std::vector<Visit>& visits, std::size_t pixels) {
   Timings result;
   std::vector<double> reference;
   std::vector<double> baselines;
+  std::vector<double> writing;
+  bool small_ones = false;
   for (const Visit& visit : visits) {
     reference.push_back(visit.reference - visit.baseline);
     baselines.push_back(visit.baseline);
+    writing.push_back(visit.baseline - visit.small_baseline);
+    small_ones = small_ones || !visit.small.empty();
   }
-  result.reference = median(reference);
-  const double baseline = median(baselines);
-  std::vector<double> deviations;
-  for (const double b : baselines) deviations.push_back(std::abs(b - baseline));
-  result.baseline_noise = kNormal * median(deviations);
+  result.reference = quantile(reference, 0.25);
 
-  std::vector<std::vector<double>> repeats(pixels);
+  Repeats large(pixels);
+  Repeats small(pixels);
   for (std::size_t v = 0; v < visits.size(); ++v) {
-    const double slower = result.reference > 0 ? localMedian(reference, v) / result.reference : 1;
-    const double floor = localMedian(baselines, v);
-    for (std::size_t i = 0; i < visits[v].pixels.size(); ++i)
-      repeats[visits[v].pixels[i]].push_back((visits[v].times[i] - floor) / (slower > 0 ? slower : 1));
+    const Visit& visit = visits[v];
+    const double local = localMedian(reference, v) / result.reference;
+    const double slower = result.reference > 0 && local > 0 ? local : 1;
+    // Small draws tell better than the empty one what is not the threads' work.
+    const double empty = small_ones ? 0 : localMedian(baselines, v);
+    for (std::size_t i = 0; i < visit.pixels.size(); ++i) {
+      large[visit.pixels[i]].push_back((visit.times[i] - empty) / slower);
+      if (!visit.small.empty()) small[visit.pixels[i]].push_back(visit.small[i] / slower);
+    }
   }
-  std::vector<double> halves;
-  for (const std::vector<double>& of_pixel : repeats) {
-    const double cost = of_pixel.empty() ? 0 : std::max(0.0, lowerQuartile(of_pixel, 0, 1));
-    result.cost.push_back(cost);
-    if (cost > 0 && of_pixel.size() >= 2)
-      halves.push_back(std::abs(lowerQuartile(of_pixel, 0, 2) - lowerQuartile(of_pixel, 1, 2)) / cost / 2);
+  Fixed fixed;
+  if (small_ones) fixed = fixedCost(large, small, std::max(0.0, median(writing)));
+
+  std::vector<double> spreads;
+  std::vector<double> taken_off;
+  for (const std::vector<double>& of_pixel : large) {
+    const bool several = of_pixel.size() >= 2;
+    const auto cost = [&](std::size_t first, std::size_t step) {
+      if (of_pixel.empty()) return 0.0;
+      const double time = lowerQuartile(of_pixel, first, step);
+      return std::max(0.0, time - fixed.of(time));
+    };
+    result.cost.push_back(cost(0, 1));
+    result.even.push_back(cost(0, several ? 2 : 1));
+    result.odd.push_back(cost(several ? 1 : 0, several ? 2 : 1));
+    if (!of_pixel.empty()) taken_off.push_back(fixed.of(lowerQuartile(of_pixel, 0, 1)));
+    if (result.cost.back() > 0 && several)
+      spreads.push_back(std::abs(result.even.back() - result.odd.back()) / result.cost.back() / 2);
   }
-  result.spread = halves.empty() ? 0 : median(std::move(halves));
+  result.fixed = small_ones ? median(std::move(taken_off)) : median(std::move(baselines));
+  result.spread = spreads.empty() ? 0 : median(std::move(spreads));
   result.noise = kNormal * result.spread;
   return result;
 }

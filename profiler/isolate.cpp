@@ -20,16 +20,20 @@ namespace {
 
 constexpr std::size_t kBlock = 24;  // pixels between two looks at the reference pixel
 constexpr int kReferenceRepeats = 3;
-constexpr int kFewestSteps = 100;    // of known work
-constexpr int kMostSteps = 4000;     // twice as many are still below the known work's own limit
-constexpr double kKnownWork = 1e5;   // ns; known work that takes so long is measured well
-constexpr double kClear = 20;        // the work takes so many times the timer's uncertainty
-constexpr double kEnough = 2e6;      // ns; a draw this long is measured well on any clock
+constexpr int kFewestSteps = 100;   // of known work
+constexpr int kMostSteps = 4000;    // twice as many are still below the known work's own limit
+constexpr double kKnownWork = 5e5;  // ns; known work that takes so long is measured well
+constexpr double kClear = 20;       // the work takes so many times the timer's uncertainty
+// ns; a draw this long is measured well on any clock. Where threads slept before, the first few hundred
+// microseconds run slowly: a smaller draw, of a quarter of the threads, must be longer than that.
+constexpr double kEnough = 2e6;
+constexpr int kSmallest = 16;        // fragments per side that leave a quarter worth a draw of its own
 constexpr std::size_t kCoarse = 64;  // one pixel in so many, at first
 constexpr double kNoisy = 0.5;
 constexpr int kMostRepeats = 60;
 constexpr std::size_t kFewest = 60;
-constexpr std::size_t kJudges = 25;  // held-out samples that an error needs to be believed
+constexpr std::size_t kEnoughAtFirst = 400;  // samples, to look how well they do
+constexpr std::size_t kJudges = 25;          // held-out samples that an error needs to be believed
 
 double fastest(const std::vector<double>& times) {
   return *std::min_element(times.begin(), times.end());
@@ -50,8 +54,9 @@ Setup calibrate(Isolation& isolation, const ProfileOptions& options) {
   std::vector<std::size_t> pixels;
   for (const Sample& probe : planSamples(isolation.covered(), 9)) pixels.push_back(probe.pixel);
   Setup setup;
-  const std::vector<int> sizes =
-      options.size ? std::vector<int>{*options.size} : std::vector<int>{8, 16, 32, 64, 128};
+  std::vector<int> sizes = {16, 32, 40, 48, 64, 96, 128, 192, 256};
+  if (options.size) sizes = {*options.size};
+  if (isolation.threadsDrawn(1) > 1) sizes = {1};  // the call has as many threads as it has
   for (const int size : sizes) {
     setup.size = size;
     isolation.time(std::span(pixels).first(1), size, 2);  // the driver compiles
@@ -68,8 +73,8 @@ Setup calibrate(Isolation& isolation, const ProfileOptions& options) {
     setup.per_pixel = stopwatch.seconds() / static_cast<double>(pixels.size());
     const double cost = median(costs);
     const double uncertainty = std::max(500.0, quantile(empty, 0.75) - quantile(empty, 0.25));
-    setup.cleared = cost >= kEnough || cost - fastest(empty) >= kClear * uncertainty;
-    if (setup.cleared) break;
+    setup.cleared = cost - fastest(empty) >= kClear * uncertainty;
+    if (setup.cleared && cost >= kEnough) break;
   }
   while (setup.steps < kMostSteps && fastest(isolation.timeKnown(setup.size, 2 * setup.steps, 3)) -
                                              fastest(isolation.timeKnown(setup.size, setup.steps, 3)) <
@@ -135,7 +140,11 @@ class Measuring {
   const CostMap& map() const { return map_; }
   const std::vector<std::uint8_t>& heldOut() const { return held_out_; }
   const Timings& timings() const { return timings_; }
-  double fragments() const { return static_cast<double>(setup_.size) * setup_.size; }
+  const Halves& halves() const { return halves_; }
+  // Threads whose work `timings` are about: those that a draw has beyond the small one.
+  double threads() const {
+    return isolation_.threadsDrawn(setup_.size) - (small() > 0 ? isolation_.threadsDrawn(small()) : 0);
+  }
   std::size_t measured() const { return pixels_.size(); }
   bool quads() const { return isolation_.quads(); }
   double yardstick() const { return median(yardsticks_); }
@@ -143,6 +152,11 @@ class Measuring {
   int repeats() const { return rounds_ * options_.repeats; }  // of the pixels measured longest
 
  private:
+  // Side of the small draws; 0: there are none.
+  int small() const {
+    const bool sized = isolation_.threadsDrawn(2) > isolation_.threadsDrawn(1);
+    return sized && setup_.size >= kSmallest ? setup_.size / 2 : 0;
+  }
   // The pixels that have the cost of this one: it, or its quad.
   std::vector<std::size_t> sharing(std::size_t pixel) const {
     if (!isolation_.quads()) return {pixel};
@@ -173,21 +187,31 @@ class Measuring {
         visit.reference =
             fastest(isolation_.time(std::span(&setup_.reference, 1), setup_.size, kReferenceRepeats).front());
         visit.baseline = fastest(isolation_.timeBaseline(setup_.size, kReferenceRepeats));
+        if (small() > 0) visit.small_baseline = fastest(isolation_.timeBaseline(small(), kReferenceRepeats));
         // What the draw costs besides its work is in both.
         const double once = fastest(isolation_.timeKnown(setup_.size, setup_.steps, 2));
         const double twice = fastest(isolation_.timeKnown(setup_.size, 2 * setup_.steps, 2));
-        yardsticks_.push_back((twice - once) / fragments() / setup_.steps);
+        yardsticks_.push_back((twice - once) / isolation_.threadsDrawn(setup_.size) / setup_.steps);
         for (std::size_t i = 0; i < block.size(); ++i) visit.pixels.push_back(first + i);
         for (const std::vector<double>& times : isolation_.time(block, setup_.size, 1))
           visit.times.push_back(times.front());
+        if (small() > 0 && repeat == 0)
+          for (const std::vector<double>& times : isolation_.time(block, small(), 2))
+            visit.small.push_back(fastest(times));
         visits_.push_back(std::move(visit));
       }
   }
 
   void assign() {
     timings_ = combine(visits_, pixels_.size());
+    halves_.even.resize(map_.cost.size());
+    halves_.odd.resize(map_.cost.size());
     for (std::size_t i = 0; i < pixels_.size(); ++i)
-      for (const std::size_t pixel : sharing(pixels_[i])) map_.cost[pixel] = timings_.cost[i] / fragments();
+      for (const std::size_t pixel : sharing(pixels_[i])) {
+        map_.cost[pixel] = timings_.cost[i] / threads();
+        halves_.even[pixel] = timings_.even[i] / threads();
+        halves_.odd[pixel] = timings_.odd[i] / threads();
+      }
   }
 
   Isolation& isolation_;
@@ -198,6 +222,7 @@ class Measuring {
   std::vector<Visit> visits_;
   std::vector<std::size_t> pixels_;  // in the order in which they were measured
   Timings timings_;
+  Halves halves_;
   int rounds_ = 1;
   std::vector<double> yardsticks_;  // ns of a step of known work
   const Stopwatch watch_;
@@ -236,19 +261,20 @@ Guide guideFrom(const Counts& counts, const frontend::Shader& shader, const Cost
 // Measures in rounds until it is enough; the estimate of the last round.
 Estimate measureInRounds(Measuring& measuring, const Setup& setup, const Guide& guide, std::size_t covered,
                          const ProfileOptions& options) {
+  const std::size_t pixels_per_sample = measuring.quads() ? 4 : 1;
+  const double samples = static_cast<double>(covered) / static_cast<double>(pixels_per_sample);
   const double left = options.budget - measuring.elapsed();
   const double affordable = std::max<double>(16, left / std::max(setup.per_pixel, 1e-7));
-  const bool all = !options.error && !options.share && affordable >= static_cast<double>(covered);
-  std::size_t first = std::clamp(covered / kCoarse, std::min(kFewest, covered), covered);
-  if (options.share)
-    first = std::max<std::size_t>(
-        4, static_cast<std::size_t>(std::lround(*options.share * static_cast<double>(covered))));
-  else if (all)
+  const bool all = !options.error && !options.share && affordable >= samples;
+  std::size_t first =
+      std::clamp(covered / pixels_per_sample / kCoarse, std::min(kFewest, covered), kEnoughAtFirst);
+  if (all || (options.share && *options.share >= 1))
     first = covered;
+  else if (options.share)
+    first = std::max<std::size_t>(4, static_cast<std::size_t>(std::lround(*options.share * samples)));
   else
     first = std::min(first, static_cast<std::size_t>(std::max(16.0, affordable / 2)));
 
-  const std::size_t pixels_per_sample = measuring.quads() ? 4 : 1;
   bool more = measuring.measure(planSamples(measuring.map(), first));
   for (unsigned round = 1;; ++round) {
     Estimate result = estimate(measuring.map(), measuring.heldOut(), guide);
@@ -256,7 +282,7 @@ Estimate measureInRounds(Measuring& measuring, const Setup& setup, const Guide& 
                         result.quality.error <= *options.error;
     if (options.progress) {
       const double by_time = measuring.elapsed() / options.budget;
-      const double by_pixels = static_cast<double>(measuring.measured()) / static_cast<double>(covered);
+      const double by_pixels = static_cast<double>(measuring.measured()) / samples;
       options.progress(std::min(1.0, std::max(by_time, by_pixels)));
     }
     if (!more || enough || options.share) return result;
@@ -278,18 +304,25 @@ Estimate measureInRounds(Measuring& measuring, const Setup& setup, const Guide& 
 
 void explain(Profile& profile, const Setup& setup, const Isolation& isolation) {
   const std::string n = std::to_string(setup.size);
+  const std::string what =
+      profile.stage != session::Stage::fragment
+          ? "the program's own call, all of whose " + std::to_string(profile.covered) +
+                " threads do the work of one"
+          : "a draw of " + n + " x " + n + " copies of " +
+                (isolation.quads() ? "the four threads of a pixel's quad" : "one pixel's thread");
   profile.notes.push_back(
-      std::string(isolation.timer().kind == Timer::Kind::cpu ? "CPU time" : "Wall-clock time") +
-      " of a draw of " + n + " x " + n + " copies of " +
-      (isolation.quads() ? "the four threads of a pixel's quad" : "one pixel's thread") +
-      ", the empty draw subtracted, per copy; drift of the machine taken out by one "
+      std::string(isolation.timer().kind == Timer::Kind::cpu ? "CPU time" : "Wall-clock time") + " of " +
+      what +
+      (profile.stage == session::Stage::fragment ? ", less what a draw of few copies takes, per copy; drift"
+                                                 : ", less an empty one, per thread; drift") +
+      " of the machine taken out by one "
       "pixel drawn again and again in between. All "
       "copies read the same memory, so caches serve them better than the program's draw.");
   if (!isolation.timerNote().empty()) profile.notes.push_back(isolation.timerNote());
   const auto [tried, same] = setup.same_output;
   if (same < tried)
     profile.notes.push_back("Only " + std::to_string(same) + " of " + std::to_string(tried) +
-                            " threads tried alone give the very colours of the program's draw; blending or "
+                            " threads tried alone give the very outputs of the program's draw; blending or "
                             "overlapping fragments may be why, else their cost may differ too.");
   if (isolation.quads())
     profile.notes.push_back(
@@ -310,7 +343,7 @@ void explain(Profile& profile, const Setup& setup, const Isolation& isolation) {
 
 Profile profileIsolate(session::Session& session, const ProfileOptions& options) {
   const Stopwatch stopwatch;
-  const frontend::Shader& shader = session.shader(session::Stage::fragment);
+  const frontend::Shader& shader = session.shader();
   Isolation isolation(session, options);
   const Setup setup = calibrate(isolation, options);
   Profile profile;
@@ -318,7 +351,9 @@ Profile profileIsolate(session::Session& session, const ProfileOptions& options)
   profile.unit = "ns";
   profile.passes = options.repeats;
   profile.check = isolation.check();
-  profile.same_output = setup.same_output;
+  profile.stage = session.stage();
+  profile.threads = isolation.threads();
+  if (setup.same_output.tried > 0) profile.same_output = setup.same_output;
   profile.timer = isolation.timer().name();
   if (isolation.quads()) profile.grain = {2, 2};
 
@@ -342,6 +377,7 @@ Profile profileIsolate(session::Session& session, const ProfileOptions& options)
 
   profile.map = measuring.map();
   profile.map.cost = result.cost;
+  profile.halves = measuring.halves();
   const Timings& timings = measuring.timings();
   profile.spread = timings.spread;
   profile.yardstick = measuring.yardstick();
@@ -363,8 +399,8 @@ Profile profileIsolate(session::Session& session, const ProfileOptions& options)
     describeLoops(session, profile);
   }
   if (options.progress) options.progress(1);
-  explain(profile, setup, isolation);
   summarize(profile);
+  explain(profile, setup, isolation);
   profile.seconds = stopwatch.seconds();
   return profile;
 }

@@ -37,16 +37,38 @@ TimerTest testTimer(double once, double twice, double thrice) {
   return test;
 }
 
-Isolation::Isolation(session::Session& session, const ProfileOptions& options) : session_(session) {
-  const frontend::Shader& shader = session.shader(session::Stage::fragment);
-  if (shader.traits.uses_derivatives || options.quads) mode_ = instrumenter::Isolation::quad;
+Isolation::Isolation(session::Session& session, const ProfileOptions& options)
+    : session_(session), stage_(session.stage()) {
+  const frontend::Shader& shader = session.shader();
+  const bool reads_neighbours = shader.traits.uses_derivatives || instrumenter::readsInputsElsewhere(shader);
+  if (stage_ == session::Stage::fragment && (reads_neighbours || options.quads))
+    mode_ = instrumenter::Isolation::quad;
   const auto result = instrumenter::instrumentIsolate(shader, session.target(), mode_);
   shader_ = orThrow(result);
   captureInputs(shader_.inputs, options);
-  isolated_ = session.prepareCovering(shader_.text, shader_.vertex_text);
-  baseline_ = session.prepareCovering(shader_.baseline_text, shader_.vertex_text);
-  known_ = session.prepareCovering(shader_.work_text, shader_.vertex_text);
+  prepare();
   chooseTimer();
+}
+
+void Isolation::prepare() {
+  if (stage_ == session::Stage::fragment) {
+    isolated_ = session_.prepareCovering(shader_.text, shader_.vertex_text);
+    baseline_ = session_.prepareCovering(shader_.baseline_text, shader_.vertex_text);
+    known_ = session_.prepareCovering(shader_.work_text, shader_.vertex_text);
+    work_uniform_ = shader_.work_uniform;
+    return;
+  }
+  isolated_ = session_.prepareText(shader_.text);
+  baseline_ = session_.prepareText(shader_.baseline_text);
+  const auto result = instrumenter::instrumentKnownWork(session_.shader(), session_.target(), false);
+  const instrumenter::KnownWork& known = orThrow(result);
+  known_ = session_.prepare(known.shader);
+  work_uniform_ = known.work_uniform;
+}
+
+double Isolation::threadsDrawn(int size) const {
+  return stage_ == session::Stage::fragment ? static_cast<double>(size) * size
+                                            : static_cast<double>(covered().costs().size());
 }
 
 // Where the "GPU" is the CPU, the CPU time of the program's threads is the cost itself, and other programs'
@@ -55,8 +77,9 @@ void Isolation::chooseTimer() {
   constexpr int kSize = 32;
   constexpr int kRounds = 5;
   constexpr int kRepeats = 4;
-  constexpr int kSteps = 300;
-  timeKnown(kSize, kSteps, 2);  // the driver compiles
+  // Of few threads each has more to do.
+  const int steps = static_cast<int>(std::clamp(300.0 * kSize * kSize / threadsDrawn(kSize), 300.0, 15000.0));
+  timeKnown(kSize, steps, 2);  // the driver compiles
   for (const Timer::Kind kind : {Timer::Kind::cpu, Timer::Kind::wall}) {
     timer_.kind = kind;
     // In turns, so that a slow moment meets all three; the fastest counts.
@@ -64,7 +87,7 @@ void Isolation::chooseTimer() {
     times.fill(std::numeric_limits<double>::infinity());
     for (int round = 0; round < kRounds; ++round) {
       for (std::size_t i = 0; i < times.size(); ++i)
-        times[i] = std::min(times[i], fastest(timeKnown(kSize, kSteps * static_cast<int>(i + 1), kRepeats)));
+        times[i] = std::min(times[i], fastest(timeKnown(kSize, steps * static_cast<int>(i + 1), kRepeats)));
       if (round >= 1 && testTimer(times[0], times[1], times[2]).trusted) return;
     }
     char numbers[160];
@@ -115,20 +138,20 @@ std::vector<double> Isolation::timeKnown(int size, int steps, int repeats) {
   session::ExecuteOptions execute;
   execute.covering_size = size;
   execute.repeats = repeats;
-  execute.uniforms = {{shader_.work_uniform, kGlInt, {static_cast<std::uint32_t>(steps)}}};
+  execute.uniforms = {{work_uniform_, kGlInt, {static_cast<std::uint32_t>(steps)}}};
   return draw(known_, execute);
 }
 
 void Isolation::captureInputs(const std::vector<instrumenter::IsolatedInput>& wanted,
                               const ProfileOptions& options) {
-  const frontend::Shader& shader = session_.shader(session::Stage::fragment);
+  const frontend::Shader& shader = session_.shader();
   instrumenter::Probe probe = instrumenter::inputsProbe(shader);
-  // As many passes as the draw buffers demand; the first also says which pixels have a thread.
+  // As many passes as the carrier of the values demands; the first also says which pixels have a thread.
   do {
     const auto result = instrumenter::instrumentSingle(shader, probe, session_.target());
     const session::Captured captured = session_.capture(orThrow(result));
     check_.merge(captured.execution.check);
-    if (covered_.cost.empty()) covered_ = coveredPixels(captured, options);
+    if (place_.map.cost.empty()) placeThreads(stage_, captured, options, place_);
     keep(captured, wanted);
     const std::size_t before = probe.watches.size();
     std::erase_if(probe.watches, [&](const frontend::Watch& watch) {
@@ -137,7 +160,7 @@ void Isolation::captureInputs(const std::vector<instrumenter::IsolatedInput>& wa
     });
     if (probe.watches.size() == before && before > 0)
       throw session::Error(session::Outcome::cannot_debug,
-                           "the driver's draw buffers have no room for the shader's input '" +
+                           "there is no room to capture the shader's input '" +
                                probe.watches.front().expression + "'; use --method clock or --method count");
   } while (!probe.watches.empty());
 }
@@ -145,7 +168,7 @@ void Isolation::captureInputs(const std::vector<instrumenter::IsolatedInput>& wa
 void Isolation::keep(const session::Captured& captured,
                      const std::vector<instrumenter::IsolatedInput>& wanted) {
   const auto stride = static_cast<std::size_t>(4 * shader_.vectors_per_thread);
-  words_.resize(covered_.cost.size() * stride);
+  words_.resize(covered().cost.size() * stride);
   is_float_.resize(stride);
   for (const instrumenter::Field& field : captured.layout.fields)
     for (const instrumenter::IsolatedInput& input : wanted) {
@@ -160,7 +183,7 @@ void Isolation::keep(const session::Captured& captured,
       const instrumenter::FieldDecoder decoder(captured.layout, field);
       std::vector<std::uint32_t> thread(static_cast<std::size_t>(captured.threads.words()));
       std::vector<std::uint32_t> value(decoder.words());
-      for (std::size_t i = 0; i < covered_.cost.size(); ++i) {
+      for (std::size_t i = 0; i < captured.threads.count(); ++i) {
         captured.threads.read(i, thread.data());
         decoder.decode(thread.data(), value.data());
         for (std::size_t w = 0; w < value.size(); ++w)
@@ -171,6 +194,32 @@ void Isolation::keep(const session::Captured& captured,
 }
 
 SameOutput Isolation::compareOutputs(const std::vector<std::size_t>& pixels) {
+  return stage_ == session::Stage::fragment ? compareColors(pixels) : compareRecords(pixels);
+}
+
+// Every thread of the call leaves what this one does.
+SameOutput Isolation::compareRecords(const std::vector<std::size_t>& pixels) {
+  session::ExecuteOptions execute;
+  execute.compare = false;
+  const session::Prepared original = session_.prepareOriginal();
+  const session::Execution expected = session_.execute(original, execute);
+  const auto words = static_cast<std::size_t>(expected.feedback_words);
+  SameOutput result;
+  if (words == 0 || expected.feedback.size() < words * covered().costs().size()) return result;
+  for (const std::size_t pixel : pixels) {
+    execute.uniforms = inputsOf(pixel);
+    const session::Execution found = session_.execute(isolated_, execute);
+    const bool same = found.feedback.size() == expected.feedback.size() &&
+                      std::equal(found.feedback.begin() + static_cast<std::ptrdiff_t>(words * pixel),
+                                 found.feedback.begin() + static_cast<std::ptrdiff_t>(words * (pixel + 1)),
+                                 expected.feedback.begin() + static_cast<std::ptrdiff_t>(words * pixel));
+    ++result.tried;
+    result.same += same ? 1 : 0;
+  }
+  return result;
+}
+
+SameOutput Isolation::compareColors(const std::vector<std::size_t>& pixels) {
   const session::Prepared original = session_.prepareOriginal();
   session::ExecuteOptions whole;
   whole.compare = false;
@@ -185,8 +234,8 @@ SameOutput Isolation::compareOutputs(const std::vector<std::size_t>& pixels) {
     one.covering_size = 2;
     one.uniforms = inputsOf(pixel);
     const std::vector<session::ColorOutput> found = session_.execute(isolated_, one).outputs;
-    const std::size_t x = pixel % static_cast<std::size_t>(covered_.width);
-    const std::size_t y = pixel / static_cast<std::size_t>(covered_.width);
+    const std::size_t x = pixel % static_cast<std::size_t>(covered().width);
+    const std::size_t y = pixel / static_cast<std::size_t>(covered().width);
     const std::size_t lane = y % 2 * 2 + x % 2;
     bool same = found.size() >= expected.size();
     for (std::size_t i = 0; same && i < expected.size(); ++i)
@@ -204,11 +253,11 @@ SameOutput Isolation::compareOutputs(const std::vector<std::size_t>& pixels) {
 std::vector<std::uint32_t> Isolation::wordsAt(int x, int y, int fallback_x, int fallback_y) {
   const auto stride = static_cast<std::ptrdiff_t>(4 * shader_.vectors_per_thread);
   const auto at = [&](int px, int py) {
-    return words_.begin() + static_cast<std::ptrdiff_t>(covered_.index(px, py)) * stride;
+    return words_.begin() + static_cast<std::ptrdiff_t>(covered().index(px, py)) * stride;
   };
   const auto has = [&](int px, int py) {
-    return px >= 0 && py >= 0 && px < covered_.width && py < covered_.height &&
-           covered_.state[covered_.index(px, py)] != PixelState::none;
+    return px >= 0 && py >= 0 && px < covered().width && py < covered().height &&
+           covered().state[covered().index(px, py)] != PixelState::none;
   };
   if (has(x, y)) return {at(x, y), at(x, y) + stride};
   std::vector<std::uint32_t> words(at(fallback_x, fallback_y), at(fallback_x, fallback_y) + stride);
@@ -229,8 +278,8 @@ std::vector<std::uint32_t> Isolation::wordsAt(int x, int y, int fallback_x, int 
 
 std::vector<session::Uniform> Isolation::inputsOf(std::size_t pixel) {
   if (shader_.words_uniform.empty()) return {};
-  const int x = static_cast<int>(pixel % static_cast<std::size_t>(covered_.width));
-  const int y = static_cast<int>(pixel / static_cast<std::size_t>(covered_.width));
+  const int x = static_cast<int>(pixel % static_cast<std::size_t>(covered().width));
+  const int y = static_cast<int>(pixel / static_cast<std::size_t>(covered().width));
   session::Uniform uniform{shader_.words_uniform, shader_.floats ? kGlFloatVec4 : kGlUintVec4, {}};
   if (!quads()) {
     uniform.words = wordsAt(x, y, x, y);

@@ -1,5 +1,6 @@
-// One pixel's thread (or one quad's four) on its own: the inputs captured once for all pixels, then handed to
-// n x n fragments (Strengert 2010, 7.2.1). Internal.
+// One thread (or the four of a pixel's quad) on its own: the inputs captured once for all threads, then
+// handed to n x n fragments (Strengert 2010, 7.2.1); of a vertex or an invocation to all threads of the
+// program's own call. Below a vertex or an invocation is a pixel of the map, too. Internal.
 #pragma once
 
 #include <random>
@@ -31,8 +32,11 @@ class Isolation {
   // detail, or where asked for. Throws session::Error where that does not work, or no timer can be trusted.
   Isolation(session::Session&, const ProfileOptions&);
 
-  // The pixels that have a thread, all `measured`.
-  const CostMap& covered() const { return covered_; }
+  // The pixels that have a thread, all `measured`; of other stages who they are.
+  const CostMap& covered() const { return place_.map; }
+  const ThreadList& threads() const { return place_.threads; }
+  // How many threads a draw of this size has: other stages' call has what it has.
+  double threadsDrawn(int size) const;
   const session::Check& check() const { return check_; }
   bool quads() const { return mode_ == instrumenter::Isolation::quad; }
   const Timer& timer() const { return timer_; }
@@ -50,24 +54,30 @@ class Isolation {
   std::vector<double> timeKnown(int size, int steps, int repeats);
 
   // Compares the colour outputs of these pixels' threads, alone, with those of the program's own draw.
+  // Other stages: what transform feedback gets of them; none tried where there is nothing of the kind.
   SameOutput compareOutputs(const std::vector<std::size_t>& pixels);
 
  private:
   void captureInputs(const std::vector<instrumenter::IsolatedInput>&, const ProfileOptions&);
   void keep(const session::Captured&, const std::vector<instrumenter::IsolatedInput>&);
+  void prepare();
+  SameOutput compareColors(const std::vector<std::size_t>& pixels);
+  SameOutput compareRecords(const std::vector<std::size_t>& pixels);
   void chooseTimer();
   std::vector<session::Uniform> inputsOf(std::size_t pixel);
   std::vector<std::uint32_t> wordsAt(int x, int y, int fallback_x, int fallback_y);
   std::vector<double> draw(const session::Prepared&, const session::ExecuteOptions&);
 
   session::Session& session_;
-  CostMap covered_;
+  session::Stage stage_;
+  Profile place_;  // only where threads have their place
   session::Check check_;
   instrumenter::Isolation mode_ = instrumenter::Isolation::plain;
   instrumenter::IsolatedShader shader_;
   std::vector<std::uint32_t> words_;    // 4 * vectors_per_thread for each pixel
   std::vector<std::uint8_t> is_float_;  // per word of a thread: may be continued linearly
   session::Prepared isolated_, baseline_, known_;
+  std::string work_uniform_;  // of `known_`
   Timer timer_;
   std::string timer_note_;
   std::size_t continued_ = 0;

@@ -57,28 +57,78 @@ std::vector<std::uint8_t> divergingPixels(const Counts& counts, const CostMap& c
   return diverging;
 }
 
-RankAgreement groupRankAgreement(const CostMap& a, const CostMap& b,
-                                 const std::vector<std::uint8_t>& diverging, Grain grain) {
-  std::vector<double> of_a;
-  std::vector<double> of_b;
-  if (a.width == b.width && a.height == b.height && diverging.size() == a.cost.size())
-    for (const std::vector<std::size_t>& pixels : groupsOf(a, grain)) {
-      double sum_a = 0;
-      double sum_b = 0;
-      int both = 0;
-      for (const std::size_t pixel : pixels) {
-        if (diverging[pixel] != 0 || a.state[pixel] != PixelState::measured ||
-            b.state[pixel] != PixelState::measured)
-          continue;
-        sum_a += a.cost[pixel];
-        sum_b += b.cost[pixel];
-        ++both;
-      }
-      if (both == 0) continue;
-      of_a.push_back(sum_a / both);
-      of_b.push_back(sum_b / both);
+namespace {
+
+using Groups = std::vector<std::vector<std::size_t>>;
+
+bool measuredInBoth(const CostMap& a, const CostMap& b, std::size_t pixel) {
+  return a.state[pixel] == PixelState::measured && b.state[pixel] == PixelState::measured;
+}
+
+double meanOf(const std::vector<double>& costs, const std::vector<std::size_t>& pixels) {
+  double sum = 0;
+  for (const std::size_t pixel : pixels) sum += costs[pixel];
+  return sum / static_cast<double>(pixels.size());
+}
+
+double dearestOf(const std::vector<double>& costs, const std::vector<std::size_t>& pixels) {
+  double most = 0;
+  for (const std::size_t pixel : pixels) most = std::max(most, costs[pixel]);
+  return most;
+}
+
+using OfGroup = double (*)(const std::vector<double>&, const std::vector<std::size_t>&);
+
+std::vector<double> costsOf(const std::vector<double>& costs, const Groups& groups, OfGroup of_group) {
+  std::vector<double> result;
+  for (const std::vector<std::size_t>& pixels : groups) result.push_back(of_group(costs, pixels));
+  return result;
+}
+
+// Of all repeats together, from how far their halves agree.
+double reliability(const Halves& halves, const Groups& groups, OfGroup of_group) {
+  if (halves.even.empty()) return 1;
+  const double of_half =
+      std::max(0.0, spearman(costsOf(halves.even, groups, of_group), costsOf(halves.odd, groups, of_group)));
+  return 2 * of_half / (1 + of_half);
+}
+
+RankAgreement agreementOf(const Ranked& a, const Ranked& b, const Groups& groups, OfGroup of_group) {
+  RankAgreement agreement;
+  agreement.pixels = groups.size();
+  agreement.rho = spearman(costsOf(a.map.cost, groups, of_group), costsOf(b.map.cost, groups, of_group));
+  agreement.most =
+      std::sqrt(reliability(a.halves, groups, of_group) * reliability(b.halves, groups, of_group));
+  return agreement;
+}
+
+bool alike(const CostMap& a, const CostMap& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+}  // namespace
+
+RankAgreement agreementWhereSame(const Ranked& a, const Ranked& b, const std::vector<std::uint8_t>& diverging,
+                                 Grain grain) {
+  Groups groups;
+  if (alike(a.map, b.map) && diverging.size() == a.map.cost.size())
+    for (std::vector<std::size_t>& pixels : groupsOf(a.map, grain)) {
+      std::erase_if(pixels, [&](std::size_t pixel) {
+        return diverging[pixel] != 0 || !measuredInBoth(a.map, b.map, pixel);
+      });
+      if (!pixels.empty()) groups.push_back(std::move(pixels));
     }
-  return {spearman(of_a, of_b), of_a.size()};
+  return agreementOf(a, b, groups, meanOf);
+}
+
+RankAgreement agreementByDearest(const Ranked& a, const Ranked& b, Grain grain) {
+  Groups groups;
+  if (alike(a.map, b.map))
+    for (std::vector<std::size_t>& pixels : groupsOf(a.map, grain))
+      if (std::any_of(pixels.begin(), pixels.end(),
+                      [&](std::size_t pixel) { return measuredInBoth(a.map, b.map, pixel); }))
+        groups.push_back(std::move(pixels));
+  return agreementOf(a, b, groups, dearestOf);
 }
 
 }  // namespace shadestep::profiler

@@ -19,6 +19,12 @@ struct NeighbourCost {
   // Pixels that the scale comes from: of groups whose threads all do the same, so that nobody waits. 0: too
   // few, it comes from what a step of known work costs by either method.
   std::size_t without_divergence = 0;
+  // How far the three methods agree on which groups are dear (count: statements).
+  struct Agreement {
+    RankAgreement clock_isolate, clock_count, isolate_count;
+  };
+  Agreement same;  // where all threads of a group do the same: their mean
+  Agreement all;   // of all groups: the dearest thread, for which the others wait
 };
 
 struct Measured {
@@ -34,9 +40,17 @@ NeighbourCost neighbourCost(const Measured& clock, const Measured& isolate,
 // Per pixel: 1 where the covered threads of its group (of that size) differ in any of the planes.
 std::vector<std::uint8_t> divergingPixels(const Counts&, const CostMap& covered, Grain);
 
-// Of what is measured per thread and what per group, ranks can agree only where the group's threads do the
-// same: a mean for each such group, over its pixels that are measured in both maps. `pixels`: groups.
-RankAgreement groupRankAgreement(const CostMap&, const CostMap&, const std::vector<std::uint8_t>& diverging,
+// Ranks of what is measured per thread and what is measured per group. They can agree only by what decides in
+// a group: where its threads do the same, their mean (over pixels that are measured in both maps); else the
+// dearest (of groups with such a pixel). `pixels`: groups. `most`: what two measurements of the very same
+// costs with this noise would show (Spearman 1904: the root of the product of their reliabilities, each by
+// its halves and the formula of Spearman and Brown).
+struct Ranked {
+  const CostMap& map;
+  const Halves& halves;
+};
+RankAgreement agreementWhereSame(const Ranked&, const Ranked&, const std::vector<std::uint8_t>& diverging,
                                  Grain);
+RankAgreement agreementByDearest(const Ranked&, const Ranked&, Grain);
 
 }  // namespace shadestep::profiler

@@ -4,27 +4,7 @@
 namespace shadestep::profiler {
 namespace {
 
-// Of other stages there are counts only.
-Profile otherStage(const std::string& method, session::Session& session, const ProfileOptions& options) {
-  const std::string stage = session::stageName(session.stage());
-  if (method != "count" && method != "auto")
-    throw session::Error(
-        session::Outcome::cannot_debug,
-        "'" + method +
-            "' measures fragments: isolate draws many copies of one, and the clock is read into "
-            "the pixels of the draw; for " +
-            stage + " shaders use --method count");
-  if (options.roi)
-    throw session::Error(session::Outcome::usage,
-                         "--roi chooses pixels; threads of " + stage + " shaders have none");
-  Profile profile = profileCount(session, options);
-  profile.notes.push_back(
-      "One cell of the map is one thread, row by row from the lower left in the order of threads.csv.");
-  return profile;
-}
-
 Profile byMethod(const std::string& method, session::Session& session, const ProfileOptions& options) {
-  if (session.stage() != session::Stage::fragment) return otherStage(method, session, options);
   if (method == "count") return profileCount(session, options);
   if (method == "clock") return profileClock(session, options);
   if (method == "isolate") return profileIsolate(session, options);
@@ -65,6 +45,21 @@ Profile withNeighbours(session::Session& session, const ProfileOptions& options)
   clock.seconds += isolate.seconds;
   clock.neighbours = neighbourCost({clock.map, clock.uncertainty, clock.yardstick},
                                    {isolate.map, isolate.uncertainty, isolate.yardstick}, clock.diverging);
+  CostMap counted = clock.map;
+  counted.cost = clock.statements;
+  const Halves exact;
+  NeighbourCost& paid = *clock.neighbours;
+  const auto agree = [&](const Ranked& a, const Ranked& b, RankAgreement& same, RankAgreement& all) {
+    same = agreementWhereSame(a, b, clock.diverging, clock.grain);
+    all = agreementByDearest(a, b, clock.grain);
+  };
+  const Ranked by_clock{clock.map, clock.halves};
+  const Ranked alone_each{isolate.map, isolate.halves};
+  agree(by_clock, alone_each, paid.same.clock_isolate, paid.all.clock_isolate);
+  if (!counted.cost.empty()) {
+    agree(by_clock, {counted, exact}, paid.same.clock_count, paid.all.clock_count);
+    agree(alone_each, {counted, exact}, paid.same.isolate_count, paid.all.isolate_count);
+  }
   clock.notes.push_back(
       "What a pixel pays for its neighbours: its ticks less those that its thread alone would take, by "
       "isolate of " +
@@ -89,10 +84,18 @@ Profile profileBy(const std::string& method, session::Session& session, const Pr
         session::Outcome::usage,
         "only the clock measures threads among their neighbours, and fragments only; give --neighbours with "
         "--method clock and --stage fragment");
+  const bool fragments = session.stage() == session::Stage::fragment;
+  if (options.roi && !fragments)
+    throw session::Error(session::Outcome::usage, std::string("--roi chooses pixels; threads of ") +
+                                                      session::stageName(session.stage()) +
+                                                      " shaders have none");
   std::optional<TextureAccesses> textures;
   if (options.textures) textures = mapTextures(session, options.roi);
   Profile profile =
       options.neighbours ? withNeighbours(session, options) : byMethod(method, session, options);
+  if (!fragments)
+    profile.notes.push_back(
+        "One cell of the map is one thread, row by row from the lower left in the order of threads.csv.");
   if (textures) profile.check.merge(textures->check);
   profile.textures = std::move(textures);
   return profile;

@@ -136,6 +136,8 @@ struct Profile {
   // Per pixel: 1 where the threads of its grain do not all do the same, as far as is counted. Empty: not
   // counted.
   std::vector<std::uint8_t> diverging;
+  Halves halves;                                 // per pixel: what half of the repeats say; empty where exact
+  std::vector<double> statements;                // per pixel: executed ones, where counted
   std::optional<NeighbourCost> neighbours;       // where asked for
   std::string timer;                             // isolate: "CPU time" or "wall clock"
   bool interrupted = false;                      // by ProfileOptions::stop

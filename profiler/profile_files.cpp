@@ -67,6 +67,16 @@ Json loopsOf(const Profile& profile) {
   return loops;
 }
 
+Json agreementOf(const RankAgreement& agreement) {
+  return {{"rho", number(agreement.rho)}, {"most", number(agreement.most)}, {"groups", agreement.pixels}};
+}
+
+Json agreementOf(const NeighbourCost::Agreement& agreement) {
+  return {{"clock_isolate", agreementOf(agreement.clock_isolate)},
+          {"clock_count", agreementOf(agreement.clock_count)},
+          {"isolate_count", agreementOf(agreement.isolate_count)}};
+}
+
 Json checkOf(const session::Check& check) {
   return {{"outputs", !check.compared_at_all ? "not compared"
                       : check.identical()    ? "identical"
@@ -183,7 +193,8 @@ std::string threadsCsv(const Profile& profile) {
   for (const std::string& name : profile.threads.names) text += name + ",";
   text += profile.unit + "\n";
   for (std::size_t i = 0; i < profile.threads.numbers.size(); ++i) {
-    for (const std::int32_t number : profile.threads.numbers[i]) text += std::to_string(number) + ",";
+    for (std::size_t name = 0; name < profile.threads.names.size(); ++name)
+      text += profile.threads.text(i, name) + ",";
     text += exactText(profile.map.cost[i]) + "\n";
   }
   return text;
@@ -203,21 +214,27 @@ const LoopCost* busiestLoop(const Profile& profile) {
 void writePerIteration(const Profile& profile, const ProfileFiles& files, const std::string& what) {
   const LoopCost* const loop = busiestLoop(profile);
   if (loop == nullptr) return;
-  const CostMap map = costPerIteration(profile.map, loop->report.iterations);
+  const auto [map, start] = costPerIteration(profile.map, loop->report.iterations);
   HeatMapText text;
   text.title = std::string("Cost per iteration: ") + methodName(profile.method);
   text.subtitle = what;
   text.unit = profile.unit;
   text.nothing = "no iteration, or no thread";
-  text.notes = {"Each pixel's cost over its iterations of the loop at line " +
+  const ScaledUnit unit = scaledUnit(profile.unit, start);
+  text.notes = {"Each pixel's cost, less the " + readable(start * unit.factor, 3) + " " + unit.name +
+                " that a thread costs before it iterates, over its iterations of the loop at line " +
                 std::to_string(loop->report.line) +
                 ": what is left where iterations alone do not explain the cost."};
-  if (profile.reconstruction)
-    text.notes.push_back("Only measured pixels: " + std::to_string(map.costs().size()) + ".");
+  if (profile.reconstruction) {
+    text.unmeasured = "iterates, not measured";
+    text.notes.push_back("Only measured pixels: " + std::to_string(map.costs(true).size()) + ".");
+  }
   writeFile(files.per_iteration_png, drawHeatMap(map, text));
   std::vector<double> cost;
   for (const double c : map.cost) cost.push_back(rounded(c));
-  writeExr(files.per_iteration_exr, map.width, map.height, {{"Y", cost}});
+  std::vector<double> measured;
+  for (const PixelState state : map.state) measured.push_back(state == PixelState::measured ? 1 : 0);
+  writeExr(files.per_iteration_exr, map.width, map.height, {{"Y", cost}, {"measured", measured}});
 }
 
 HeatMapText neighboursText(const Profile& profile, const std::string& what) {
@@ -317,7 +334,9 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
   if (profile.neighbours)
     document["neighbours"] = {{"share", number(profile.neighbours->share)},
                               {"scale", number(profile.neighbours->scale)},
-                              {"without_divergence", profile.neighbours->without_divergence}};
+                              {"without_divergence", profile.neighbours->without_divergence},
+                              {"agreement", agreementOf(profile.neighbours->same)},
+                              {"agreement_all", agreementOf(profile.neighbours->all)}};
   if (profile.textures) document["textures"] = toJson(*profile.textures, files.texture);
   document["check"] = checkOf(profile.check);
   document["notes"] = profile.notes;

@@ -35,6 +35,17 @@ CostMap coveredPixels(const session::Captured& captured, const ProfileOptions& o
   return map;
 }
 
+void placeThreads(session::Stage stage, const session::Captured& captured, const ProfileOptions& options,
+                  Profile& profile) {
+  profile.stage = stage;
+  if (stage == session::Stage::fragment) {
+    profile.map = coveredPixels(captured, options);
+  } else {
+    profile.threads = threadsOf(captured);
+    profile.map = foldThreads(captured, profile.threads);
+  }
+}
+
 void summarize(Profile& profile) {
   const std::vector<double> costs = profile.map.costs();
   profile.covered = costs.size();

@@ -21,6 +21,10 @@ const T& orThrow(const instrumenter::Result<T>& result) {
 // nothing_matches if that is nowhere.
 CostMap coveredPixels(const session::Captured&, const ProfileOptions&);
 
+// Where the captured threads of the session's stage have their place in the profile: sets stage and map, and
+// of other stages than the fragment stage who they are. Throws nothing_matches if there are none.
+void placeThreads(session::Stage, const session::Captured&, const ProfileOptions&, Profile&);
+
 // covered, measured, total, median and p95 from the map.
 void summarize(Profile&);
 

@@ -51,6 +51,29 @@ double relativeSpread(std::vector<double> repeats) {
   return (quantile(std::move(repeats), 0.75) - first) / middle;
 }
 
+Line robustLine(std::vector<std::pair<double, double>> points) {
+  constexpr std::size_t kAllPairs = 60;  // of so many points; of more, one pair for each two
+  std::sort(points.begin(), points.end());
+  const std::size_t n = points.size();
+  std::vector<double> slopes;
+  const auto pair = [&](std::size_t a, std::size_t b) {
+    const double across = points[b].first - points[a].first;
+    if (across > 0) slopes.push_back((points[b].second - points[a].second) / across);
+  };
+  for (std::size_t a = 0; a < n; ++a) {
+    if (n <= kAllPairs)
+      for (std::size_t b = a + 1; b < n; ++b) pair(a, b);
+    else if (a < n / 2)
+      pair(a, a + n / 2);
+  }
+  Line line;
+  if (!slopes.empty()) line.slope = median(std::move(slopes));
+  std::vector<double> starts;
+  for (const auto& [x, y] : points) starts.push_back(y - line.slope * x);
+  line.start = starts.empty() ? 0 : median(std::move(starts));
+  return line;
+}
+
 std::vector<double> meanRanks(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

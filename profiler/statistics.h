@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace shadestep::profiler {
@@ -14,6 +15,14 @@ double median(std::vector<double> values);
 // How much repeated measurements of one quantity differ: (third - first quartile) / median. 0 if the median
 // is 0.
 double relativeSpread(std::vector<double> repeats);
+
+// A line y = start + slope x through points of which up to a quarter may be anywhere: the median of the
+// slopes between pairs, and the median of what is then left (Theil 1950, Sen 1968). Of many points each is
+// paired with the one half the list on, in the order of x. All x equal: slope 0.
+struct Line {
+  double slope = 0, start = 0;
+};
+Line robustLine(std::vector<std::pair<double, double>> points);
 
 // Ranks 1..n in the order of the values; equal values share the mean of their ranks.
 std::vector<double> meanRanks(std::span<const double> values);

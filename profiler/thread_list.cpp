@@ -4,8 +4,12 @@
 #include <bit>
 #include <cmath>
 
+#include "session/values.h"
+
 namespace shadestep::profiler {
 namespace {
+
+constexpr std::size_t kRow = 32;  // threads in step stay together in a row
 
 // Of a dispatch that is filled whole: its width.
 int widthOf(const ThreadList& threads) {
@@ -16,14 +20,24 @@ int widthOf(const ThreadList& threads) {
     const auto width = static_cast<std::size_t>(most) + 1;
     if (count % width == 0 && count > width) return static_cast<int>(width);
   }
-  return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+  if (count <= kRow) return static_cast<int>(count);
+  const auto rows = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count)) / kRow));
+  return static_cast<int>(rows * kRow);
 }
 
 }  // namespace
 
+std::string ThreadList::text(std::size_t thread, std::size_t name) const {
+  const auto word = static_cast<std::uint32_t>(numbers[thread][name]);
+  return session::formatComponent(types[name], &word);
+}
+
 ThreadList threadsOf(const session::Captured& captured) {
   ThreadList threads;
-  for (const instrumenter::Field& field : captured.layout.identity) threads.names.push_back(field.name);
+  for (const instrumenter::Field& field : captured.layout.identity) {
+    threads.names.push_back(field.name);
+    threads.types.push_back(field.type.basic);
+  }
   for (int i = 0; i < captured.threads.width(); ++i) {
     threads.numbers.emplace_back();
     for (const instrumenter::Field& field : captured.layout.identity)

@@ -186,6 +186,11 @@ void describeWork(const frontend::Shader& shader, const Counts& counts, Profile&
   }
   for (const auto& [number, line] : lines) profile.lines.push_back(line);
 
+  profile.statements.assign(profile.map.cost.size(), 0);
+  for (const Counts::Site& site : counts.sites)
+    if (site.what.kind == Counted::Kind::runs)
+      for (std::size_t i = 0; i < profile.statements.size(); ++i)
+        profile.statements[i] += counts.planes[site.plane][i];
   profile.diverging = divergingPixels(counts, profile.map, profile.grain);
   describeBranches(shader, counts, profile);
   const std::vector<instrumenter::TextureFetch> fetches = instrumenter::textureFetches(shader);

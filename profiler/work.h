@@ -7,8 +7,8 @@
 
 namespace shadestep::profiler {
 
-// Fills in lines, branches, functions, samplers and divergence of the profile, and the fit where costs are
-// measured ones. The profile's map, state and grain are final.
+// Fills in lines, branches, functions, samplers, statements and divergence of the profile, and the fit where
+// costs are measured ones. The profile's map, state and grain are final.
 void describeWork(const frontend::Shader&, const Counts&, Profile&);
 
 // Fills in the loops, if the shader has any; draws.

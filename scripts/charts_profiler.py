@@ -1,11 +1,14 @@
 """Speed against accuracy of the profiler's methods: docs/charts/profiler.csv and profiler.svg.
 
-Usage: scripts/charts profiler [--size N] [--quick]
+Usage: scripts/charts profiler [--size N] [--rounds N] [--draw | --figures]
 Build first: scripts/build shadestep shadestep-gl raycaster program-shader-file
 
 For each shader a reference is measured: every pixel by `isolate`, with many repeats. Then each method with several
-settings, in turn, ROUNDS times; of the rounds the median counts. Errors are against the reference, after scaling to
+settings, in turn, --rounds times; of the rounds the median counts. Errors are against the reference, after scaling to
 the same mean (clock and count have units of their own).
+
+--figures: how near each figure of the ray caster comes to the best that can be seen here, docs/charts/profiler-figures.csv. A
+full measurement made twice shows how well anything can be known; sampled ones are measured in turns with them.
 """
 
 import argparse
@@ -119,6 +122,48 @@ def measure(size, rounds):
     return rows
 
 
+def neighbours(program, budget):
+    with tempfile.TemporaryDirectory() as directory:
+        command = [BIN / "shadestep", "profile", "--quiet", "--json", "--neighbours", "--budget", budget, "--out", directory,
+                   "--", *program]
+        done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def figures(size, rounds):
+    program = [BIN / "raycaster", "--size", size]
+    rows = []
+    row = lambda figure, value, best, remark: rows.append(
+        {"figure": figure, "value": f"{value:.4f}", "best": best if isinstance(best, str) else f"{best:.4f}", "remark": remark})
+    spreads = [Map(program, "clock", ["--passes", "5"]).profile["spread"] for _ in range(3 * rounds)]
+    many = [Map(program, "clock", ["--passes", "20"]).profile["spread"] for _ in range(rounds)]
+    row("clock: spread of 6 draws", statistics.median(spreads), statistics.median(many), "best: 21 draws")
+    paid = [neighbours(program, 20)["neighbours"] for _ in range(rounds)]
+    for which, name in (("agreement_all", "by the dearest thread"), ("agreement", "without divergence")):
+        for pair in paid[0][which]:
+            middle = lambda key: statistics.median(one[which][pair][key] for one in paid)
+            row(f"ranks, {name}: {pair}", middle("rho"), middle("most"), f"{paid[0][which][pair]['groups']} groups")
+    full = ["--share", "1", "--repeats", "5", "--budget", "900"]
+    runs = []
+    for number in range(rounds):
+        print(f"round {number + 1} of {rounds}", flush=True)
+        runs.append([Map(program, "isolate", full)] +
+                    [Map(program, "isolate", ["--share", str(1 / 64)]) for _ in range(3)] + [Map(program, "isolate", full)])
+    against = lambda which: [compare(run[i], run[0]) for run in runs for i in which]
+    middle = lambda values: statistics.median(abs(value) for value in values)
+    sampled, again = against((1, 2, 3)), against((4,))
+    row("isolate, 1/64: RMSE", middle(one[0] for one in sampled), middle(one[0] for one in again), "best: all pixels again")
+    row("isolate, 1/64: total", middle(one[2] for one in sampled), middle(one[2] for one in again), "best: all pixels again")
+    row("isolate, 1/64: share of the time",
+        middle(run[i].seconds / run[0].seconds for run in runs for i in (1, 2, 3)), "", f"of {runs[0][0].seconds:.0f} s")
+    for one in rows:
+        print("  ".join(one.values()))
+    with (OUT / "profiler-figures.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 # ---- drawing -------------------------------------------------------------------------------------------
 
 COLORS = {"count": "#6b7280", "clock": "#c2410c", "isolate": "#2f5fb3"}
@@ -176,9 +221,12 @@ def main():
     parser.add_argument("--size", type=int, default=128)
     parser.add_argument("--rounds", type=int, default=ROUNDS)
     parser.add_argument("--draw", action="store_true", help="only draw again what profiler.csv holds")
+    parser.add_argument("--figures", action="store_true", help="the ray caster's figures and the best that can be seen")
     arguments = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     table = OUT / "profiler.csv"
+    if arguments.figures:
+        return figures(arguments.size, arguments.rounds)
     if arguments.draw:
         rows = list(csv.DictReader(table.open()))
     else:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -141,6 +142,25 @@ void printComparison(const profiler::Comparison& comparison, const frontend::Sha
   }
 }
 
+void printNeighbours(const profiler::NeighbourCost& paid, const std::string& unit) {
+  std::printf("paid for neighbours: %s %% of all %s\n", profiler::readable(100 * paid.share, 3).c_str(),
+              unit.c_str());
+  const auto agreement = [](const char* methods, const profiler::RankAgreement& ranks) {
+    std::printf("  %s %s, of at most %s that their noise lets be seen\n", methods,
+                profiler::readable(ranks.rho, 3).c_str(), profiler::readable(ranks.most, 3).c_str());
+  };
+  const auto agreements = [&](const profiler::NeighbourCost::Agreement& of, const char* which) {
+    if (of.clock_isolate.pixels < 2) return;
+    std::printf("ranks of the %s groups %s (Spearman):\n", withThousands(of.clock_isolate.pixels).c_str(),
+                which);
+    agreement("clock and isolate", of.clock_isolate);
+    agreement("clock and count  ", of.clock_count);
+    agreement("isolate and count", of.isolate_count);
+  };
+  agreements(paid.all, "by the dearest thread of each");
+  agreements(paid.same, "in which all threads do the same");
+}
+
 void printText(const profiler::Profile& profile, const frontend::Shader& shader) {
   const auto cost = [&](double value) {
     const profiler::ScaledUnit unit = profiler::scaledUnit(profile.unit, value);
@@ -158,9 +178,7 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
     std::printf("the rest reconstructed: error %s %% (root mean square) on %zu held-out pixels\n",
                 profiler::readable(100 * profile.reconstruction->error, 2).c_str(),
                 profile.reconstruction->held_out);
-  if (profile.neighbours)
-    std::printf("paid for neighbours: %s %% of all %s\n",
-                profiler::readable(100 * profile.neighbours->share, 3).c_str(), profile.unit.c_str());
+  if (profile.neighbours) printNeighbours(*profile.neighbours, profile.unit);
   std::cout << describe(profile.check) << "\n";
   for (const std::string& note : profile.notes) std::cout << "note: " << note << "\n";
   std::fflush(stdout);
@@ -216,7 +234,8 @@ void printTextures(const profiler::TextureAccesses& accesses) {
   for (const std::string& note : accesses.notes) std::printf("  %s\n", note.c_str());
 }
 
-void printFiles(const profiler::ProfileFiles& files, const profiler::Profile& profile, bool compared) {
+void printFiles(const profiler::ProfileFiles& files, const profiler::Profile& profile, bool compared,
+                double seconds) {
   std::printf("\nwrote %s, %s, %s, %s, %s", files.report_html.c_str(), files.heat_png.c_str(),
               files.heat_exr.c_str(), files.height_png.c_str(), files.profile_json.c_str());
   if (compared) std::printf(", %s, %s", files.difference_png.c_str(), files.difference_exr.c_str());
@@ -225,7 +244,7 @@ void printFiles(const profiler::ProfileFiles& files, const profiler::Profile& pr
   if (!files.per_iteration_png.empty())
     std::printf(", %s, %s", files.per_iteration_png.c_str(), files.per_iteration_exr.c_str());
   if (profile.textures) std::printf(", %s*.png, %s*.exr", files.texture.c_str(), files.texture.c_str());
-  std::printf("\n");
+  std::printf(" in %s s\n", profiler::readable(seconds, 2).c_str());
 }
 
 profiler::ProfileFiles filesIn(const Common& common) {
@@ -288,7 +307,9 @@ int run(const Common& common, const Options& options) {
   std::optional<profiler::Comparison> comparison;
   if (earlier) comparison = profiler::compare(*earlier, profile, shader.lines);
   const profiler::Comparison* const compared = comparison ? &*comparison : nullptr;
+  const auto before = std::chrono::steady_clock::now();
   profiler::writeProfile(profile, files, what, compared);
+  const std::chrono::duration<double> writing = std::chrono::steady_clock::now() - before;
   if (common.json) {
     print(profiler::toJson(profile, files, what, compared));
   } else {
@@ -296,7 +317,7 @@ int run(const Common& common, const Options& options) {
     printBranches(profile);
     if (profile.textures) printTextures(*profile.textures);
     if (comparison) printComparison(*comparison, shader);
-    printFiles(files, profile, comparison.has_value());
+    printFiles(files, profile, comparison.has_value(), writing.count());
   }
   const bool differs = profile.check.compared_at_all && !profile.check.identical();
   const bool dearer = comparison && comparison->verdict == profiler::Verdict::dearer;

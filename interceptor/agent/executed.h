@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "interceptor/agent/cpu_time.h"
 #include "interceptor/capture/storage.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/refusal.h"
@@ -17,23 +18,23 @@
 
 namespace shadestep::agent {
 
-inline std::uint64_t now(clockid_t clock) {
+inline std::uint64_t wallClock() {
   timespec time{};
-  clock_gettime(clock, &time);
+  clock_gettime(CLOCK_MONOTONIC, &time);
   return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(time.tv_nsec);
 }
 
 // Draws and notes how long that took, on the wall and in CPU time of the whole program: nothing is in flight
 // before it, all is done after it.
 template <class Draw>
-void timed(wire::ExecutedT& executed, Draw draw) {
+void timed(wire::ExecutedT& executed, CpuTime& cpu, Draw draw) {
   dispatch::gl().Finish();
-  const std::uint64_t wall = now(CLOCK_MONOTONIC);
-  const std::uint64_t cpu = now(CLOCK_PROCESS_CPUTIME_ID);
+  const std::uint64_t cpu_before = cpu.now();
+  const std::uint64_t before = wallClock();
   draw();
   dispatch::gl().Finish();
-  executed.cpu_ns.push_back(now(CLOCK_PROCESS_CPUTIME_ID) - cpu);
-  executed.times_ns.push_back(now(CLOCK_MONOTONIC) - wall);
+  executed.times_ns.push_back(wallClock() - before);
+  executed.cpu_ns.push_back(cpu.now() - cpu_before);
 }
 
 // Hands out ranges of the memory that travels beside Executed; aligned for any word.

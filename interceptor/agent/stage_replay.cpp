@@ -67,13 +67,19 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
   wire::ExecutedT executed;
   std::uint64_t records = 0;
   if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
-  for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
+  CpuTime cpu;
+  const std::size_t sets = std::max<std::size_t>(request.sets.size(), 1);
+  for (std::size_t i = 0; i < std::max(request.repeats, 1U) * sets; ++i) {
+    if (!request.sets.empty()) {
+      const std::string problem = replay::setUniforms(copy.program, request.sets[i % sets]->uniforms);
+      if (!problem.empty()) return guard::unsupported(problem);
+    }
     if (!counted(copy)) {  // which runs the shader, too
       if (Refusal refusal = resetStorage(storage_, copy, request); !refusal.text.empty()) return refusal;
     }
     if (Refusal refusal = prepare(copy); !refusal.text.empty()) return refusal;
     if (Refusal refusal = resetStorage(storage_, copy, request); !refusal.text.empty()) return refusal;
-    timed(executed, [&] { records = drawOnce(copy); });
+    timed(executed, cpu, [&] { records = drawOnce(copy); });
   }
   if (guard::clearErrors()) return driverError();
 

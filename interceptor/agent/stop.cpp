@@ -197,12 +197,13 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const g
   {
     const guard::CaptureBufferGuard plain(context, twice ? std::vector<int>() : locations(copy.captures));
     if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
+    CpuTime cpu;
     for (std::uint32_t i = 0; i < std::max(request.repeats, 1U); ++i) {
       if (Refusal refusal = prepareReplay(copy, framebuffers, request, twice ? none : copy.captures);
           !refusal.text.empty()) {
         return refusal;
       }
-      timed(executed, [&] { call_.replay(call_.arguments, call_.mode); });
+      timed(executed, cpu, [&] { call_.replay(call_.arguments, call_.mode); });
     }
     if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
   }
@@ -318,13 +319,14 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
     if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
     if (Refusal refusal = resetStorage(storage_, copy, request); !refusal.text.empty()) return refusal;
     const std::size_t sets = std::max<std::size_t>(request.sets.size(), 1);
+    CpuTime cpu;
     for (std::size_t i = 0; i < std::max(request.repeats, 1U) * sets; ++i) {
       if (!request.sets.empty()) {
         const std::string problem = replay::setUniforms(copy.program, request.sets[i % sets]->uniforms);
         if (!problem.empty()) return guard::unsupported(problem);
       }
       memory_->restore();
-      timed(executed, [&] { covering_.draw(); });
+      timed(executed, cpu, [&] { covering_.draw(); });
     }
     if (guard::clearErrors()) return guard::internal("the driver answers the covering draw with an error");
   }

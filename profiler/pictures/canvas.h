@@ -82,5 +82,6 @@ inline constexpr Color kFaintInk{0.42, 0.45, 0.50};
 inline constexpr Color kGrid{0.90, 0.91, 0.93};
 inline constexpr Color kFrame{0.70, 0.72, 0.75};
 inline constexpr Color kNoThread{0.945, 0.95, 0.957};
+inline constexpr Color kUnmeasured{0.66, 0.73, 0.79};  // in none of the colour maps
 
 }  // namespace shadestep::profiler

@@ -18,14 +18,16 @@ constexpr double kNoteHeight = 16;
 constexpr int kBins = 70;
 constexpr Color kDistribution{0.82, 0.835, 0.86};
 
-Pixels colored(const CostMap& map, const ColorRange& range) {
+Pixels colored(const CostMap& map, const ColorRange& range, bool measured_only) {
   Pixels pixels{map.width, map.height, {}};
   pixels.colors.reserve(map.cost.size());
   for (int y = map.height - 1; y >= 0; --y)
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = map.index(x, y);
-      pixels.colors.push_back(
-          map.state[i] == PixelState::none ? kNoThread : sequentialColor(range.position(map.cost[i])));
+      const bool unmeasured = measured_only && map.state[i] == PixelState::reconstructed;
+      pixels.colors.push_back(map.state[i] == PixelState::none ? kNoThread
+                              : unmeasured                     ? kUnmeasured
+                                           : sequentialColor(range.position(map.cost[i])));
     }
   return pixels;
 }
@@ -93,10 +95,11 @@ std::string drawHeatMap(const CostMap& map, const HeatMapText& text) {
   canvas.text(24, 34, text.title, {18, true, kInk, Align::left});
   canvas.text(24, 54, text.subtitle, {12, false, kFaintInk, Align::left});
 
-  const std::vector<double> costs = map.costs();
+  const bool measured_only = !text.unmeasured.empty();
+  const std::vector<double> costs = map.costs(measured_only);
   const ColorRange range = costRange(costs);
   const Rect panel{kLeft, kTop, size.width, size.height};
-  drawPixelPanel(canvas, panel, colored(map, range));
+  drawPixelPanel(canvas, panel, colored(map, range, measured_only));
 
   const ScaledUnit unit = scaledUnit(text.unit, range.high);
   const Rect bar{panel.right() + 34, kTop + 14, 18, panel_height - 14};
@@ -104,7 +107,8 @@ std::string drawHeatMap(const CostMap& map, const HeatMapText& text) {
   if (!costs.empty()) drawDistribution(canvas, {bar.right() + 66, bar.y, 90, bar.height}, range, costs, unit);
 
   double y = kTop + panel_height + 44;
-  drawKey(canvas, kLeft, y, kNoThread, false, text.nothing);
+  const double next = drawKey(canvas, kLeft, y, kNoThread, false, text.nothing);
+  if (measured_only) drawKey(canvas, next, y, kUnmeasured, false, text.unmeasured);
   for (const std::string& line : notes) canvas.text(kLeft, y += kNoteHeight, line, note_style);
   return canvas.png();
 }

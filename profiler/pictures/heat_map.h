@@ -14,7 +14,9 @@ struct HeatMapText {
   std::string subtitle;                            // what was measured, on what
   std::string unit;                                // "ns", "ticks", "statements"
   std::vector<std::string> notes;                  // lines below the picture
-  std::string nothing = "no thread of this draw";  // what a pixel without a cost means
+  std::string nothing = "no thread of this draw";  // what a pixel of state `none` means
+  // Not empty: pixels of state `reconstructed` have no cost here, and this is what they mean.
+  std::string unmeasured = {};
 };
 
 // What the colours span: the costs that occur. One pixel in a thousand may lie above: a single interrupted

@@ -39,14 +39,27 @@ TEST(RankAgreement, is_undefined_for_maps_of_different_sizes) {
   EXPECT_TRUE(std::isnan(agreement.rho));
 }
 
-TEST(CostPerIteration, is_of_measured_pixels_that_iterate) {
-  CostMap map(4, 1);
-  map.cost = {12, 30, 8, 5};
-  map.state = {PixelState::measured, PixelState::reconstructed, PixelState::measured, PixelState::measured};
-  const CostMap each = costPerIteration(map, {4, 3, 0, 2});
-  EXPECT_EQ(each.costs(), (std::vector<double>{3, 2.5}));
-  EXPECT_EQ(each.state[1], PixelState::none);
-  EXPECT_EQ(each.state[2], PixelState::none);
+// 7 each, and 3 an iteration in all but one.
+TEST(CostPerIteration, is_of_measured_pixels_that_iterate_without_what_every_thread_costs) {
+  CostMap map(7, 1);
+  map.cost = {7 + 4 * 3, 1000, 7, 7 + 2 * 3, 7 + 9 * 3, 7 + 5 * 4, 7 + 20 * 3};
+  map.state.assign(7, PixelState::measured);
+  map.state[1] = PixelState::reconstructed;
+  const PerIteration each = costPerIteration(map, {4, 3, 0, 2, 9, 5, 20});
+  EXPECT_DOUBLE_EQ(each.start, 7);
+  EXPECT_THAT(each.map.costs(true), testing::ElementsAre(3, 3, 3, 4, 3));
+  EXPECT_EQ(each.map.state[1], PixelState::reconstructed);
+  EXPECT_EQ(each.map.cost[1], 0);
+  EXPECT_EQ(each.map.state[2], PixelState::none);
+}
+
+TEST(CostPerIteration, takes_nothing_off_where_all_iterate_alike) {
+  CostMap map(3, 1);
+  map.cost = {8, 10, 12};
+  map.state.assign(3, PixelState::measured);
+  const PerIteration each = costPerIteration(map, {4, 4, 4});
+  EXPECT_EQ(each.start, 0);
+  EXPECT_THAT(each.map.costs(), testing::ElementsAre(2, 2.5, 3));
 }
 
 }  // namespace

@@ -37,9 +37,13 @@ class Limits : public testing::Test {
   session::Session& draw(const std::string& shader, const std::string& program = "shader-file",
                          const std::string& argument = "") {
     std::ofstream(directory_ / "shader.frag") << shader;
+    std::vector<std::string> command = {beside("programs/" + program), (directory_ / "shader.frag").string()};
+    if (!argument.empty()) command.push_back(argument);
+    return launch(command);
+  }
+  session::Session& launch(const std::vector<std::string>& command) {
     session::LaunchOptions options;
-    options.command = {beside("programs/" + program), (directory_ / "shader.frag").string()};
-    if (!argument.empty()) options.command.push_back(argument);
+    options.command = command;
     options.timeout = std::chrono::seconds(120);
     session_ = std::make_unique<session::Session>(options);
     session_->runTo(0, 0);
@@ -79,6 +83,22 @@ TEST_F(Limits, derivatives_levels_and_dependent_lookups_are_the_true_ones_alone)
   EXPECT_THAT(profile.notes, testing::Contains(HasSubstr("quads")));
 }
 
+// An input elsewhere than at the fragment's centre is continued from the quad. 8 at is x - 7.5: a quarter of
+// a pixel stays in the pixel, three quarters do not.
+TEST_F(Limits, inputs_at_other_places_are_the_true_ones_alone) {
+  session::Session& session = draw(
+      "#version 400 core\nin vec2 at;\nout vec4 color;\nvoid main() {\n"
+      "vec2 near = interpolateAtOffset(at, vec2(0.25));\n"
+      "color = floor(8.0 * vec4(near, interpolateAtOffset(at, vec2(0.75, 0.0)).x, "
+      "interpolateAtCentroid(at).y) + "
+      "0.01);\n}\n");
+  const Profile profile = profileIsolate(session, quick());
+  EXPECT_EQ(profile.grain, (Grain{2, 2}));
+  ASSERT_TRUE(profile.same_output.has_value());
+  EXPECT_GT(profile.same_output->tried, 4U);
+  EXPECT_EQ(profile.same_output->same, profile.same_output->tried);
+}
+
 // Threads that end in a discard ran and are covered, with the statements until there.
 TEST_F(Limits, discarded_threads_count_until_their_end) {
   session::Session& session =
@@ -93,6 +113,25 @@ TEST_F(Limits, discarded_threads_count_until_their_end) {
   const Profile alone = profileIsolate(session, quick());
   EXPECT_EQ(alone.covered, 256U);
   EXPECT_TRUE(alone.check.identical()) << alone.check.reason;
+}
+
+// The left half is hidden by what the depth buffer holds: an early test keeps its threads from running.
+TEST_F(Limits, threads_that_an_early_test_keeps_out_cost_nothing) {
+  std::ofstream(directory_ / "shader.frag") << oldShader(
+      "float x = 0.3;\nfor (int i = 0; i < 50; ++i)\nx = 3.7 * x * "
+      "(1.0 - x);\ncolor = vec4(x);");
+  session::Session& session =
+      launch({beside("programs/shader-file"), directory_ / "shader.frag", "64", "hidden-left"});
+  for (const Profile& profile :
+       {profileCount(session, {}), profileClock(session, quick()), profileIsolate(session, quick())}) {
+    EXPECT_EQ(profile.covered, 32U * 64U) << methodName(profile.method);
+    EXPECT_TRUE(profile.check.identical()) << profile.check.reason;
+    for (int x = 0; x < 64; ++x) {
+      const std::size_t i = profile.map.index(x, 20);
+      EXPECT_EQ(profile.map.state[i] == PixelState::none, x < 32) << x;
+      EXPECT_EQ(profile.map.cost[i] > 0, x >= 32) << x;
+    }
+  }
 }
 
 constexpr const char* kWriting =
@@ -199,6 +238,23 @@ TEST_F(Limits, neighbours_of_dear_pixels_pay_and_dear_pixels_do_not) {
   EXPECT_EQ(clock.diverging[clock.map.index(5, 10)], 0);
   EXPECT_GT(median(cheap), 0.5);
   EXPECT_LT(std::abs(median(dear)), median(cheap));
+}
+
+// Where CPU time stands still the wall clock is taken, and that is said; where that lies too, nothing is
+// measured.
+TEST_F(Limits, timers_that_lie_are_not_believed) {
+  const Profile by_wall = profileIsolate(launch({beside("programs/lying-timers"), "cpu"}), quick());
+  EXPECT_EQ(by_wall.timer, "wall clock");
+  EXPECT_THAT(by_wall.notes, testing::Contains(HasSubstr("CPU time does not run in proportion")));
+  session::Session& session = launch({beside("programs/lying-timers"), "all"});
+  try {
+    profileIsolate(session, quick());
+    FAIL() << "measured by a clock that counts looks";
+  } catch (const session::Error& error) {
+    EXPECT_EQ(error.outcome(), session::Outcome::cannot_debug);
+    EXPECT_THAT(error.what(), HasSubstr("no timer can be trusted"));
+  }
+  EXPECT_EQ(profileCount(session, {}).covered, 64U * 64U);
 }
 
 TEST_F(Limits, neighbours_are_the_clocks_only) {

@@ -51,9 +51,14 @@ TEST_F(Methods, cover_the_same_pixels_and_leave_the_outputs_alone) {
     RecordProperty("rho_" + names, std::to_string(agreement.rho));
     std::printf("Spearman's rho of %s: %.3f at %zu pixels\n", names.c_str(), agreement.rho, agreement.pixels);
     EXPECT_GT(agreement.pixels, 0U) << names;
-    const RankAgreement groups = groupRankAgreement(a->map, b->map, clock.diverging, clock.grain);
-    std::printf("  in %zu groups of %d x %d without divergence: %.3f\n", groups.pixels, clock.grain.width,
-                clock.grain.height, groups.rho);
+    const Ranked ranked_a{a->map, a->halves};
+    const Ranked ranked_b{b->map, b->halves};
+    const RankAgreement all = agreementByDearest(ranked_a, ranked_b, clock.grain);
+    const RankAgreement same = agreementWhereSame(ranked_a, ranked_b, clock.diverging, clock.grain);
+    std::printf(
+        "  by the dearest of %zu groups %.3f of at most %.3f; of %zu without divergence %.3f of at most "
+        "%.3f\n",
+        all.pixels, all.rho, all.most, same.pixels, same.rho, same.most);
   }
   for (const Profile* profile : {&count, &clock, &isolate}) {
     EXPECT_TRUE(profile->check.identical()) << methodName(profile->method) << ": " << profile->check.reason;

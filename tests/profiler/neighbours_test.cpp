@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace shadestep::profiler {
 namespace {
 
@@ -72,14 +74,58 @@ TEST(DivergingPixels, are_those_of_groups_whose_threads_differ_in_anything) {
   EXPECT_EQ(divergingPixels(counts, covered, {1, 1}), std::vector<std::uint8_t>(8));
 }
 
-TEST(GroupRankAgreement, compares_groups_whose_threads_do_the_same) {
+TEST(Agreement, compares_groups_whose_threads_do_the_same) {
   // Per thread on the left, per group on the right: the third group diverges, and its order is another.
   const CostMap alone = filled(8, 1, {1, 2, 3, 5, 9, 1, 7, 8});
   const CostMap in_place = filled(8, 1, {10, 10, 20, 20, 5, 5, 30, 30});
-  const RankAgreement agreement = groupRankAgreement(alone, in_place, {0, 0, 0, 0, 1, 1, 0, 0}, {2, 1});
+  const Halves exact;
+  const RankAgreement agreement =
+      agreementWhereSame({alone, exact}, {in_place, exact}, {0, 0, 0, 0, 1, 1, 0, 0}, {2, 1});
+  EXPECT_DOUBLE_EQ(agreement.rho, 1);
+  EXPECT_DOUBLE_EQ(agreement.most, 1);
+  EXPECT_EQ(agreement.pixels, 3U);
+  EXPECT_LT(agreementWhereSame({alone, exact}, {in_place, exact}, std::vector<std::uint8_t>(8), {2, 1}).rho,
+            1);
+}
+
+// The first group's dearest thread on the left is what its clock shows on the right; by means the order would
+// be another.
+TEST(Agreement, compares_all_groups_by_their_dearest_threads) {
+  const CostMap alone = filled(6, 1, {1, 9, 6, 6, 3, 4});
+  const CostMap in_place = filled(6, 1, {90, 90, 60, 60, 40, 40});
+  const Halves exact;
+  const RankAgreement agreement = agreementByDearest({alone, exact}, {in_place, exact}, {2, 1});
   EXPECT_DOUBLE_EQ(agreement.rho, 1);
   EXPECT_EQ(agreement.pixels, 3U);
-  EXPECT_LT(groupRankAgreement(alone, in_place, std::vector<std::uint8_t>(8), {2, 1}).rho, 1);
+  EXPECT_LT(agreementWhereSame({alone, exact}, {in_place, exact}, std::vector<std::uint8_t>(6), {2, 1}).rho,
+            1);
+}
+
+// Two measurements of the same costs, each with as much noise as the costs vary: they agree as far as each
+// repeats itself, and that is what is said beforehand.
+TEST(Agreement, knows_how_far_noise_lets_ranks_agree) {
+  constexpr int kPixels = 4000;
+  std::mt19937 random(3);
+  std::normal_distribution<double> varies;
+  std::vector<double> costs[2];
+  Halves halves[2];
+  for (int i = 0; i < kPixels; ++i) {
+    const double truth = 100 + varies(random);
+    for (int m = 0; m < 2; ++m) {
+      halves[m].even.push_back(truth + 1.4 * varies(random));
+      halves[m].odd.push_back(truth + 1.4 * varies(random));
+      costs[m].push_back((halves[m].even.back() + halves[m].odd.back()) / 2);
+    }
+  }
+  const CostMap a = filled(kPixels, 1, costs[0]);
+  const CostMap b = filled(kPixels, 1, costs[1]);
+  const RankAgreement agreement =
+      agreementWhereSame({a, halves[0]}, {b, halves[1]}, std::vector<std::uint8_t>(kPixels), {1, 1});
+  EXPECT_LT(agreement.most, 0.6);
+  EXPECT_NEAR(agreement.most, agreement.rho, 0.05);
+  const Halves exact;
+  EXPECT_GT(agreementWhereSame({a, halves[0]}, {b, exact}, std::vector<std::uint8_t>(kPixels), {1, 1}).most,
+            agreement.most);
 }
 
 }  // namespace

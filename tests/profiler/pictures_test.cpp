@@ -78,6 +78,25 @@ TEST(HeatMap, colours_measured_pixels_and_no_others) {
   EXPECT_LT(picture.of(sequentialColor(1)), 17 * block);
 }
 
+// Costs of unmeasured pixels are nobody's: neither shown nor in the range of colours.
+TEST(HeatMap, tells_what_was_not_measured_from_what_has_no_thread) {
+  CostMap map(8, 8);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x) {
+      map.state[map.index(x, y)] = x < 4 ? PixelState::measured : PixelState::reconstructed;
+      map.cost[map.index(x, y)] = x < 2 ? 0 : x < 4 ? 100 : 5000;
+    }
+  HeatMapText text{"title", "subtitle", "ns", {}};
+  text.unmeasured = "not measured";
+  const Decoded picture = decode(drawHeatMap(map, text));
+  const int block = 140 * 140;
+  EXPECT_GE(picture.of(kNoThread), 32 * block);
+  EXPECT_LT(picture.of(kNoThread), 33 * block);
+  EXPECT_GE(picture.of(kUnmeasured), 16 * block);
+  EXPECT_LT(picture.of(kUnmeasured), 17 * block);
+  EXPECT_GE(picture.of(sequentialColor(1)), 8 * block);
+}
+
 TEST(HeatMap, of_nothing_is_a_picture_too) {
   EXPECT_GT(decode(drawHeatMap(CostMap(16, 16), {"title", "", "ns", {}})).width, 0);
 }

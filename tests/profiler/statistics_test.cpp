@@ -84,5 +84,17 @@ TEST(MedianNoise, is_that_of_a_median_of_so_many) {
   EXPECT_EQ(medianNoise({3, 3, 3}), 0);
 }
 
+TEST(RobustLine, goes_through_most_points) {
+  for (const int n : {8, 400}) {  // all pairs, and some
+    std::vector<std::pair<double, double>> points;
+    for (int i = 0; i < n; ++i) points.emplace_back(i, i % 8 == 3 ? 1e6 : 5 + 0.25 * i);
+    const Line line = robustLine(points);
+    EXPECT_NEAR(line.slope, 0.25, 1e-9) << n;
+    EXPECT_NEAR(line.start, 5, 1e-9) << n;
+  }
+  EXPECT_EQ(robustLine({{2, 7}, {2, 9}, {2, 8}}).slope, 0);
+  EXPECT_EQ(robustLine({{2, 7}, {2, 9}, {2, 8}}).start, 8);
+}
+
 }  // namespace
 }  // namespace shadestep::profiler

@@ -1,10 +1,36 @@
-// OpenGL 3.3 core: the fragment shader in the file that is named, over all of a square float target of 16 x 16 pixels,
-// or as many as are asked for. Its `uniform vec2 size` is that; its `uniform sampler2D map` is a texture of 64 x 64 whose
-// level l reads as l / 8 everywhere.
+// OpenGL 3.3 core: the fragment shader in the file that is named, over all of a square float target of 16 x
+// 16 pixels, or as many as are asked for. Its `uniform vec2 size` is that; its `uniform sampler2D map` is a
+// texture of 64 x 64 whose level l reads as l / 8 everywhere; its `in vec2 at` is the place, -1 to 1.
+// "hidden-left": the left half lies behind something.
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "osmesa_program.h"
+
+static const char* const kVertex = R"glsl(#version 330 core
+out vec2 at;
+void main()
+{
+    at = 4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0;
+    gl_Position = vec4(at, 0.0, 1.0);
+}
+)glsl";
+
+static void hideLeft(int side) {
+  GLuint depth = 0;
+  glGenRenderbuffers(1, &depth);
+  glBindRenderbuffer(GL_RENDERBUFFER, depth);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, side, side);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, side / 2, side);
+  glClearDepth(0.25);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_DEPTH_TEST);
+}
 
 // Bound to unit 0, which is what samplers name unless told otherwise.
 static void makeMap() {
@@ -20,7 +46,7 @@ static void makeMap() {
 }
 
 int main(int argc, char** argv) {
-  if (argc < 2) fail("usage: shader-file FRAGMENT_SHADER [SIDE]");
+  if (argc < 2) fail("usage: shader-file FRAGMENT_SHADER [SIDE [hidden-left]]");
   std::ifstream file(argv[1], std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
@@ -38,10 +64,11 @@ int main(int argc, char** argv) {
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, side, side);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
   glViewport(0, 0, side, side);
+  if (argc > 3 && std::string(argv[3]) == "hidden-left") hideLeft(side);
   GLuint vertexArray = 0;
   glGenVertexArrays(1, &vertexArray);
   glBindVertexArray(vertexArray);
-  const GLuint program = linkProgram(kCornerVertex, text.str().c_str());
+  const GLuint program = linkProgram(kVertex, text.str().c_str());
   glUseProgram(program);
   glUniform2f(glGetUniformLocation(program, "size"), static_cast<float>(side), static_cast<float>(side));
   makeMap();

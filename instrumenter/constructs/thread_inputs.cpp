@@ -1,9 +1,12 @@
-#include "instrumenter/constructs/fragment_inputs.h"
+#include "instrumenter/constructs/thread_inputs.h"
 
 #include <algorithm>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include "instrumenter/constructs/declaration.h"
+#include "instrumenter/measures.h"
 
 namespace shadestep::instrumenter {
 
@@ -24,25 +27,61 @@ struct BuiltIn {
   int rows;
 };
 // Built-in inputs that have one value in a fragment of a single-sampled target.
-constexpr BuiltIn kBuiltIns[] = {
+constexpr BuiltIn kFragmentBuiltIns[] = {
     {"gl_FragCoord", Basic::float_, 4},      {"gl_FrontFacing", Basic::bool_, 1},
     {"gl_PointCoord", Basic::float_, 2},     {"gl_Color", Basic::float_, 4},
     {"gl_SecondaryColor", Basic::float_, 4}, {"gl_FogFragCoord", Basic::float_, 1},
     {"gl_PrimitiveID", Basic::int_, 1},      {"gl_Layer", Basic::int_, 1},
     {"gl_ViewportIndex", Basic::int_, 1},
 };
-// Built-in inputs that are arrays: what an element is.
+constexpr BuiltIn kVertexBuiltIns[] = {
+    {"gl_VertexID", Basic::int_, 1},         {"gl_InstanceID", Basic::int_, 1},
+    {"gl_InstanceIDARB", Basic::int_, 1},    {"gl_BaseVertex", Basic::int_, 1},
+    {"gl_BaseVertexARB", Basic::int_, 1},    {"gl_BaseInstance", Basic::int_, 1},
+    {"gl_BaseInstanceARB", Basic::int_, 1},  {"gl_DrawID", Basic::int_, 1},
+    {"gl_DrawIDARB", Basic::int_, 1},        {"gl_Vertex", Basic::float_, 4},
+    {"gl_Normal", Basic::float_, 3},         {"gl_Color", Basic::float_, 4},
+    {"gl_SecondaryColor", Basic::float_, 4}, {"gl_FogCoord", Basic::float_, 1},
+    {"gl_MultiTexCoord0", Basic::float_, 4}, {"gl_MultiTexCoord1", Basic::float_, 4},
+    {"gl_MultiTexCoord2", Basic::float_, 4}, {"gl_MultiTexCoord3", Basic::float_, 4},
+    {"gl_MultiTexCoord4", Basic::float_, 4}, {"gl_MultiTexCoord5", Basic::float_, 4},
+    {"gl_MultiTexCoord6", Basic::float_, 4}, {"gl_MultiTexCoord7", Basic::float_, 4},
+};
+constexpr BuiltIn kComputeBuiltIns[] = {
+    {"gl_GlobalInvocationID", Basic::uint_, 3},
+    {"gl_LocalInvocationID", Basic::uint_, 3},
+    {"gl_WorkGroupID", Basic::uint_, 3},
+    {"gl_LocalInvocationIndex", Basic::uint_, 1},
+};
+// Built-in inputs of fragments that are arrays: what an element is.
 constexpr BuiltIn kArrays[] = {
     {"gl_TexCoord", Basic::float_, 4},
     {"gl_ClipDistance", Basic::float_, 1},
     {"gl_CullDistance", Basic::float_, 1},
 };
 
-const BuiltIn* builtInArray(const std::string& name) {
-  const auto* found = std::find_if(std::begin(kArrays), std::end(kArrays),
-                                   [&name](const BuiltIn& candidate) { return name == candidate.name; });
-  return found == std::end(kArrays) ? nullptr : found;
+std::span<const BuiltIn> builtIns(frontend::Stage stage) {
+  switch (stage) {
+    case frontend::Stage::vertex:
+      return kVertexBuiltIns;
+    case frontend::Stage::compute:
+      return kComputeBuiltIns;
+    default:
+      return kFragmentBuiltIns;
+  }
 }
+
+const BuiltIn* find(std::span<const BuiltIn> among, const std::string& name) {
+  const auto found = std::find_if(among.begin(), among.end(),
+                                  [&name](const BuiltIn& candidate) { return name == candidate.name; });
+  return found == among.end() ? nullptr : &*found;
+}
+
+const BuiltIn* builtInArray(const Shader& shader, const std::string& name) {
+  return shader.stage == frontend::Stage::fragment ? find(kArrays, name) : nullptr;
+}
+
+constexpr std::string_view kInterpolation = "interpolateAt";
 
 const Token& at(const Shader& shader, TokenIndex i) {
   return shader.tokens[static_cast<std::size_t>(i)];
@@ -53,7 +92,7 @@ TokenIndex tokenCount(const Shader& shader) {
 }
 
 bool isInputQualifier(const std::string& text) {
-  return text == "in" || text == "varying";
+  return text == "in" || text == "varying" || text == "attribute";
 }
 
 // Does the declaration around a built-in's name declare it again (`in vec4 gl_FragCoord;`)?
@@ -160,11 +199,33 @@ void makeVariable(Draft& draft, const Variable& input) {
   stripQualifiers(draft, {declaration.first, end - 1});
 }
 
+// What an input is at the centroid and at a sample, in a target with one sample, and near by: continued
+// linearly.
+void declareInterpolation(Draft& draft) {
+  const Shader& shader = draft.shader();
+  if (std::none_of(shader.tokens.begin(), shader.tokens.end(),
+                   [](const Token& token) { return token.text.starts_with(kInterpolation); }))
+    return;
+  const std::string precision = draft.highp();
+  for (const char* const name : {"float", "vec2", "vec3", "vec4"}) {
+    const std::string type = precision + name;
+    draft.declare(type + " " + draft.name("AtCentroid") + "(" + type + " v) { return v; }\n" + type + " " +
+                  draft.name("AtSample") + "(" + type + " v, " + precision +
+                  "int sample_number) { return v; }\n" + type + " " + draft.name("AtOffset") + "(" + type +
+                  " v, " + precision + "vec2 o) { return v + o.x * dFdx(v) + o.y * dFdy(v); }");
+  }
+}
+
 }  // namespace
 
-Result<std::vector<FragmentInput>> fragmentInputs(const Draft& draft) {
+bool readsInputsElsewhere(const Shader& shader) {
+  return std::any_of(shader.tokens.begin(), shader.tokens.end(),
+                     [](const Token& token) { return token.text == "interpolateAtOffset"; });
+}
+
+Result<std::vector<ThreadInput>> threadInputs(const Draft& draft) {
   const Shader& shader = draft.shader();
-  std::vector<FragmentInput> inputs;
+  std::vector<ThreadInput> inputs;
   for (const Variable& variable : shader.variables) {
     if (!isUserInput(variable) || !variable.read) continue;
     inputs.push_back({variable.name, variable.name, variable.type});
@@ -173,9 +234,7 @@ Result<std::vector<FragmentInput>> fragmentInputs(const Draft& draft) {
   std::set<std::string> seen;
   for (TokenIndex i = 0; i < tokenCount(shader); ++i) {
     const std::string& text = at(shader, i).text;
-    if (text.starts_with("interpolateAt"))
-      return Failure{"The inputs cannot be replaced: '" + text + "' needs a real input."};
-    const BuiltIn* const array = builtInArray(text);
+    const BuiltIn* const array = builtInArray(shader, text);
     if (array != nullptr && !isRedeclaration(shader, i)) {
       const std::string index = literalIndex(shader, i);
       if (index.empty())
@@ -184,29 +243,32 @@ Result<std::vector<FragmentInput>> fragmentInputs(const Draft& draft) {
         inputs.push_back({text + "[" + index + "]", draft.name(text.substr(3) + index),
                           typeOf(array->basic, array->rows)});
     }
-    const auto* built_in = std::find_if(std::begin(kBuiltIns), std::end(kBuiltIns),
-                                        [&text](const BuiltIn& candidate) { return text == candidate.name; });
-    if (built_in == std::end(kBuiltIns) || isRedeclaration(shader, i) || !seen.insert(text).second) continue;
+    const BuiltIn* const built_in = find(builtIns(shader.stage), text);
+    if (built_in == nullptr || isRedeclaration(shader, i) || !seen.insert(text).second) continue;
     inputs.push_back({text, draft.name(text.substr(3)), typeOf(built_in->basic, built_in->rows)});
   }
   return inputs;
 }
 
-void replaceInputs(Draft& draft, const std::vector<FragmentInput>& inputs) {
+void replaceInputs(Draft& draft, const std::vector<ThreadInput>& inputs) {
   const Shader& shader = draft.shader();
   for (const Variable& variable : shader.variables)
     if (isUserInput(variable)) makeVariable(draft, variable);
-  for (const FragmentInput& input : inputs) {
+  for (const ThreadInput& input : inputs) {
     if (input.input == input.variable) continue;
     const std::string precision = input.type.basic == Basic::bool_ ? "" : draft.highp();
     draft.declare(precision + frontend::glslName(input.type) + " " + input.variable + ";");
   }
 
+  declareInterpolation(draft);
+
   for (TokenIndex i = 0; i < tokenCount(shader); ++i) {
     const Token& token = at(shader, i);
-    const bool array = builtInArray(token.text) != nullptr;
+    if (token.text.starts_with(kInterpolation))
+      draft.edits.replace(i, draft.name(token.text.substr(std::string_view("interpolate").size())));
+    const bool array = builtInArray(shader, token.text) != nullptr;
     const std::string watch = array ? token.text + "[" + literalIndex(shader, i) + "]" : token.text;
-    const auto input = std::find_if(inputs.begin(), inputs.end(), [&watch](const FragmentInput& candidate) {
+    const auto input = std::find_if(inputs.begin(), inputs.end(), [&watch](const ThreadInput& candidate) {
       return candidate.input == watch && candidate.input != candidate.variable;
     });
     if ((input != inputs.end() || array) && isRedeclaration(shader, i)) {
