@@ -168,13 +168,20 @@ std::vector<std::string> Attachments::valueWords(const std::string& value, const
   return floats() ? floatChannels(draft_, value, type) : uintWords(draft_, value, type);
 }
 
+// A geometry shader that hands its words to transform feedback emits one point, and none of its own vertices.
+std::string Attachments::handOver() {
+  if (!feedback() || draft_.shader().stage != frontend::Stage::geometry) return write();
+  declarePoints(draft_, 1);
+  dropEmits(draft_);
+  return write() + emitPoint();
+}
+
+void Attachments::frameInstead(const std::string& statements) {
+  wrapMain(draft_, statements + handOver() + "  return;\n", "");
+}
+
 void Attachments::frame(const std::string& start, const std::string& end) {
-  const bool points = feedback() && draft_.shader().stage == frontend::Stage::geometry;
-  if (points) {
-    declarePoints(draft_, 1);
-    dropEmits(draft_);
-  }
-  wrapMain(draft_, start, end + write() + (points ? emitPoint() : ""));
+  wrapMain(draft_, start, end + handOver());
   if (!storage_ || !draft_.shader().traits.uses_discard) return;
   layout_.discarded_block = draft_.name("Discarded");
   layout_.discarded_words = 4 * (1 + layout_.attachments());

@@ -47,6 +47,9 @@ class Attachments {
   // and for each of its ends, where the words are then handed over. To be called once, before the functions
   // along a call path are cloned.
   void frame(const std::string& start, const std::string& end);
+  // That of a thread that does these statements, once, instead of the shader's own (a control shader's:
+  // before them).
+  void frameInstead(const std::string& statements);
   // GLSL statements that write the buffered words to the outputs.
   std::string write() const;
 
@@ -57,6 +60,7 @@ class Attachments {
   const AttachmentLayout& layout() const { return layout_; }
 
  private:
+  std::string handOver();
   void chooseAttachments(const Target&);
   void chooseFeedbackOrList(const Target&);
   bool floats() const {

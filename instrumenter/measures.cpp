@@ -5,7 +5,6 @@
 #include "instrumenter/attachments.h"
 #include "instrumenter/constructs/condition.h"
 #include "instrumenter/constructs/loop.h"
-#include "instrumenter/constructs/main.h"
 #include "instrumenter/constructs/statement.h"
 #include "instrumenter/measures.h"
 
@@ -56,7 +55,7 @@ class Measures {
   Result<AttachmentShader> finishInstead(const std::string& statements) {
     if (!failure_.empty()) return Failure{failure_};
     attachments_.declare();
-    wrapMain(draft_, statements + assign() + attachments_.write() + "  return;\n", "");
+    attachments_.frameInstead(statements + assign());
     return text();
   }
 

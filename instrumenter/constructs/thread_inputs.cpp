@@ -81,7 +81,13 @@ const BuiltIn* builtInArray(const Shader& shader, const std::string& name) {
   return shader.stage == frontend::Stage::fragment ? find(kArrays, name) : nullptr;
 }
 
-constexpr std::string_view kInterpolation = "interpolateAt";
+// interpolateAtCentroid, interpolateAtSample, interpolateAtOffset
+bool isInterpolation(const std::string& name) {
+  constexpr std::string_view kBefore = "interpolateAt";
+  if (!name.starts_with(kBefore)) return false;
+  const std::string_view where = std::string_view(name).substr(kBefore.size());
+  return where == "Centroid" || where == "Sample" || where == "Offset";
+}
 
 const Token& at(const Shader& shader, TokenIndex i) {
   return shader.tokens[static_cast<std::size_t>(i)];
@@ -204,7 +210,7 @@ void makeVariable(Draft& draft, const Variable& input) {
 void declareInterpolation(Draft& draft) {
   const Shader& shader = draft.shader();
   if (std::none_of(shader.tokens.begin(), shader.tokens.end(),
-                   [](const Token& token) { return token.text.starts_with(kInterpolation); }))
+                   [](const Token& token) { return isInterpolation(token.text); }))
     return;
   const std::string precision = draft.highp();
   for (const char* const name : {"float", "vec2", "vec3", "vec4"}) {
@@ -264,7 +270,7 @@ void replaceInputs(Draft& draft, const std::vector<ThreadInput>& inputs) {
 
   for (TokenIndex i = 0; i < tokenCount(shader); ++i) {
     const Token& token = at(shader, i);
-    if (token.text.starts_with(kInterpolation))
+    if (isInterpolation(token.text))
       draft.edits.replace(i, draft.name(token.text.substr(std::string_view("interpolate").size())));
     const bool array = builtInArray(shader, token.text) != nullptr;
     const std::string watch = array ? token.text + "[" + literalIndex(shader, i) + "]" : token.text;

@@ -221,7 +221,8 @@ TEST_F(Limits, neighbours_of_dear_pixels_pay_and_dear_pixels_do_not) {
       "shader-file", "64");
   ProfileOptions options;
   options.neighbours = true;
-  options.budget = 2;
+  options.share = 0.02;
+  options.budget = 100;
   const Profile clock = profileBy("clock", session, options);
   ASSERT_TRUE(clock.neighbours.has_value());
   EXPECT_GT(clock.neighbours->without_divergence, 0U);
