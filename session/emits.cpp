@@ -1,7 +1,7 @@
 #include "session/emits.h"
 
 #include <algorithm>
-#include <map>
+#include <span>
 #include <tuple>
 
 namespace shadestep::session {
@@ -13,11 +13,19 @@ int leastVertices(const std::string& primitive) {
   return primitive == "points" ? 1 : primitive == "line_strip" ? 2 : 3;
 }
 
-// The entries of one thread of the list, in the order in which it made them.
-struct Thread {
+// One of the list: a vertex that a thread emits, or its end.
+struct Entry {
   int primitive = 0, invocation = 0;
-  std::vector<const std::uint32_t*> emits;
-  int vertices = 0;
+  int thread = 0;    // order of its start
+  int vertices = 0;  // that the thread emitted before
+  bool end = false;
+  const std::uint32_t* words = nullptr;
+
+  bool operator<(const Entry& other) const {
+    return std::tie(primitive, invocation, thread, vertices, end) <
+           std::tie(other.primitive, other.invocation, other.thread, other.vertices, other.end);
+  }
+  bool sameThread(const Entry& other) const { return thread == other.thread; }
 };
 
 class Reader {
@@ -34,25 +42,14 @@ class Reader {
   void read() {
     for (std::size_t i = instrumenter::kEmitFields; i < layout_.fields.size(); ++i)
       emits_.outputs.push_back({layout_.fields[i].name, layout_.fields[i].type});
-    for (std::size_t i = 0; i < threads_.count(); ++i) sort(threads_.head(i));
-    // By primitive, and by the order of their start where several have the same number.
-    std::vector<const Thread*> ordered;
-    for (const auto& [number, thread] : by_start_) ordered.push_back(&thread);
-    std::stable_sort(ordered.begin(), ordered.end(), [](const Thread* a, const Thread* b) {
-      return std::tie(a->primitive, a->invocation) < std::tie(b->primitive, b->invocation);
-    });
-    for (std::size_t i = 0; i < ordered.size(); ++i) {
-      const Thread& thread = *ordered[i];
-      const bool again = i > 0 && thread.primitive == ordered[i - 1]->primitive &&
-                         thread.invocation == ordered[i - 1]->invocation;
-      repeat_ = again ? repeat_ + 1 : 0;
-      emits_.repeats = emits_.repeats || again;
-      InputPrimitive& input = inputs_[{thread.primitive, repeat_}];
-      input.primitive = thread.primitive;
-      input.repeat = repeat_;
-      input.runs.push_back(run(thread));
+    readEntries();
+    for (std::size_t first = 0; first < entries_.size();) {
+      std::size_t end = first + 1;
+      while (end < entries_.size() && entries_[end].sameThread(entries_[first])) ++end;
+      addRun(std::span(entries_).subspan(first, end - first));
+      first = end;
     }
-    for (auto& [key, input] : inputs_) emits_.inputs.push_back(std::move(input));
+    sortInputs();
   }
 
  private:
@@ -65,55 +62,78 @@ class Reader {
     return number(fields_[field], entry);
   }
 
-  void sort(const std::uint32_t* entry) {
-    Thread& thread = by_start_[in_order_ ? ended_ : number(instrumenter::kEmitThread, entry)];
-    thread.primitive = number(identity_.at(0), entry);
-    thread.invocation = identity_.size() > 1 ? number(identity_[1], entry) : 0;
-    if ((instrumenter::decodeMark(layout_, entry) & instrumenter::kReached) != 0) {
-      thread.emits.push_back(entry);
-    } else {
-      thread.vertices = number(instrumenter::kEmitVertices, entry);
-      ++ended_;
+  // By primitive, and by the order of their start where several threads have the same number. Where the list
+  // does not say it, threads lie one behind the other.
+  void readEntries() {
+    int ended = 0;
+    entries_.reserve(threads_.count());
+    for (std::size_t i = 0; i < threads_.count(); ++i) {
+      const std::uint32_t* words = threads_.head(i);
+      Entry entry;
+      entry.primitive = number(identity_.at(0), words);
+      entry.invocation = identity_.size() > 1 ? number(identity_[1], words) : 0;
+      entry.thread = in_order_ ? ended : number(instrumenter::kEmitThread, words);
+      entry.vertices = number(instrumenter::kEmitVertices, words);
+      entry.end = (instrumenter::decodeMark(layout_, words) & instrumenter::kReached) == 0;
+      entry.words = words;
+      ended += entry.end ? 1 : 0;
+      entries_.push_back(entry);
     }
+    if (!std::is_sorted(entries_.begin(), entries_.end())) std::sort(entries_.begin(), entries_.end());
   }
 
-  GeometryRun run(Thread thread) const {
-    const auto order = [&](const std::uint32_t* a, const std::uint32_t* b) {
-      return number(instrumenter::kEmitVertices, a) < number(instrumenter::kEmitVertices, b);
-    };
-    std::sort(thread.emits.begin(), thread.emits.end(), order);
-    const int listed = in_order_ ? std::min(thread.vertices, emits_.max_vertices) : thread.vertices;
-    if (thread.emits.size() != static_cast<std::size_t>(listed))
+  // Of the entries of one thread, its end last.
+  void addRun(std::span<const Entry> entries) {
+    const Entry& end = entries.back();
+    const std::size_t emitted = entries.size() - 1;
+    const int listed = in_order_ ? std::min(end.vertices, emits_.max_vertices) : end.vertices;
+    if (!end.end || emitted != static_cast<std::size_t>(listed))
       throw Error(Outcome::failed, "the list of emitted vertices is not complete; report this as a bug");
+    const bool again = !keys_.empty() && keys_.back().primitive == end.primitive &&
+                       keys_.back().invocation == end.invocation;
+    const int repeat = again ? keys_.back().repeat + 1 : 0;
+    emits_.repeats = emits_.repeats || again;
+    keys_.push_back({end.primitive, repeat, end.invocation, runs_.size()});
+    runs_.push_back(run(end, entries.first(emitted)));
+    runs_.back().beyond_limit += end.vertices - listed;
+  }
+
+  GeometryRun run(const Entry& end, std::span<const Entry> emits) const {
     GeometryRun run;
-    run.invocation = thread.invocation;
-    run.vertices = thread.vertices;
-    run.beyond_limit = thread.vertices - listed;
-    std::map<std::pair<int, int>, OutputPrimitive> outputs;  // by stream and strip
-    for (const std::uint32_t* entry : thread.emits) {
-      if (emits_.max_vertices >= 0 && number(instrumenter::kEmitVertices, entry) >= emits_.max_vertices) {
+    run.invocation = end.invocation;
+    run.vertices = end.vertices;
+    const bool points = emits_.primitive == "points";
+    std::vector<int> strips;  // of run.outputs
+    for (const Entry& entry : emits) {
+      if (emits_.max_vertices >= 0 && entry.vertices >= emits_.max_vertices) {
         ++run.beyond_limit;
         continue;
       }
-      const int stream = number(instrumenter::kEmitStream, entry);
-      const bool points = emits_.primitive == "points";
-      const int strip = number(points ? instrumenter::kEmitVertices : instrumenter::kEmitStrip, entry);
-      OutputPrimitive& output = outputs[{stream, strip}];
-      output.stream = stream;
-      output.vertices.push_back(vertex(entry));
+      const int stream = number(instrumenter::kEmitStream, entry.words);
+      const int strip = points ? entry.vertices : number(instrumenter::kEmitStrip, entry.words);
+      std::size_t output = points ? 0 : run.outputs.size();
+      while (output > 0 && (run.outputs[output - 1].stream != stream || strips[output - 1] != strip))
+        --output;
+      if (output == 0) {
+        run.outputs.emplace_back().stream = stream;
+        strips.push_back(strip);
+        output = run.outputs.size();
+      }
+      run.outputs[output - 1].vertices.push_back(vertex(entry.words));
     }
     const int least = leastVertices(emits_.primitive);
-    for (auto& [key, output] : outputs) {
-      const int count = static_cast<int>(output.vertices.size());
-      output.parts = std::max(count - least + 1, 0);
+    for (OutputPrimitive& output : run.outputs) {
+      output.parts = std::max(static_cast<int>(output.vertices.size()) - least + 1, 0);
       output.ill_formed = output.parts == 0;
-      run.outputs.push_back(std::move(output));
     }
+    std::stable_sort(run.outputs.begin(), run.outputs.end(),
+                     [](const OutputPrimitive& a, const OutputPrimitive& b) { return a.stream < b.stream; });
     return run;
   }
 
   EmittedVertex vertex(const std::uint32_t* entry) const {
     EmittedVertex vertex;
+    vertex.values.reserve(fields_.size() - instrumenter::kEmitFields);
     for (std::size_t i = instrumenter::kEmitFields; i < fields_.size(); ++i) {
       instrumenter::Value value{layout_.fields[i].type, std::vector<std::uint32_t>(fields_[i].words())};
       fields_[i].decode(entry, value.words.data());
@@ -122,15 +142,37 @@ class Reader {
     return vertex;
   }
 
+  // All invocations on one primitive together.
+  void sortInputs() {
+    const auto before = [](const Key& a, const Key& b) {
+      return std::tie(a.primitive, a.repeat, a.invocation) < std::tie(b.primitive, b.repeat, b.invocation);
+    };
+    if (!std::is_sorted(keys_.begin(), keys_.end(), before)) std::sort(keys_.begin(), keys_.end(), before);
+    emits_.inputs.reserve(keys_.size());
+    for (const Key& key : keys_) {
+      std::vector<InputPrimitive>& inputs = emits_.inputs;
+      if (inputs.empty() || inputs.back().primitive != key.primitive || inputs.back().repeat != key.repeat) {
+        inputs.emplace_back();
+        inputs.back().primitive = key.primitive;
+        inputs.back().repeat = key.repeat;
+      }
+      inputs.back().runs.push_back(std::move(runs_[key.run]));
+    }
+  }
+
+  struct Key {
+    int primitive = 0, repeat = 0, invocation = 0;
+    std::size_t run = 0;
+  };
+
   const instrumenter::AttachmentLayout& layout_;
   const ThreadWords& threads_;
   bool in_order_;  // thread by thread, each with its end; else as `thread` says
-  int ended_ = 0;
   GeometryEmits& emits_;
   std::vector<instrumenter::FieldDecoder> identity_, fields_;
-  std::map<int, Thread> by_start_;
-  std::map<std::pair<int, int>, InputPrimitive> inputs_;  // by primitive and repeat
-  int repeat_ = 0;
+  std::vector<Entry> entries_;
+  std::vector<GeometryRun> runs_;
+  std::vector<Key> keys_;  // of the runs
 };
 
 }  // namespace
