@@ -121,6 +121,21 @@ TEST(OldVertexDraws, ShowEveryVertexOnce) {
   }
 }
 
+// Without storage buffers, by redraws: the vertex that was asked for, although indices name others twice
+// before it.
+TEST(VertexRun, ByRedrawsIsThatOfTheVertex) {
+  const Scratch scratch;
+  const Finished run =
+      scratch.shadestep({"debug", "--stage", "vertex", "--vertex", "9", "--instance", "1", "--json"},
+                        {"env", "MESA_GL_VERSION_OVERRIDE=3.3COMPAT", "MESA_GLSL_VERSION_OVERRIDE=330",
+                         "MESA_EXTENSION_OVERRIDE=-GL_ARB_shader_storage_buffer_object", binary(kProgram)});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json document = run.json();
+  EXPECT_EQ(document["inputs"]["key"]["value"], key(9));
+  EXPECT_EQ(changedAt(document["steps"], 20, "moved"), (Json{(9 - 3) * 0.5, 9.0}));
+  EXPECT_EQ(changedAt(document["steps"], 19, "tag"), (Json{sumOf(9), 1}));
+}
+
 TEST(VertexSelection, SaysWhatThereIs) {
   const Scratch scratch;
   const auto debug = [&](std::vector<std::string> options) {
