@@ -207,6 +207,8 @@ StatementId Parser::switchStatement(StatementId parent) {
   expect("{");
   Scope scope(*this);
   statementList(id);
+  // glslang wants a statement behind the last label, and counts neither `;` nor `{}`; drivers take them.
+  if (!statementRef(id).children.empty()) out_.analysed_as[current()] = "0;}";
   expect("}");
   return close(id);
 }

@@ -112,6 +112,18 @@ class ProbedRun {
       if (std::find(ids.begin(), ids.end(), declarator.variable) == ids.end())
         ids.push_back(declarator.variable);
     }
+    return withoutHidden(ids);
+  }
+
+  // Of two variables of one name, the one that is declared later is meant behind the statement.
+  std::vector<VariableId> withoutHidden(std::vector<VariableId> ids) const {
+    const std::vector<VariableId> all = ids;
+    std::erase_if(ids, [&](VariableId id) {
+      return id != kNone && std::any_of(all.begin(), all.end(), [&](VariableId other) {
+               return other != kNone && variable(other).name == variable(id).name &&
+                      variable(other).declared > variable(id).declared;
+             });
+    });
     return ids;
   }
 
@@ -151,6 +163,7 @@ class ProbedRun {
         if (std::find(watched.begin(), watched.end(), id) == watched.end()) watched.push_back(id);
       }
     }
+    watched = withoutHidden(watched);
     Probe probe = probeAt(position, Probe::When::after, watched);
     probe.outcome = true;
     const std::vector<NamedValue> values = look(probe);

@@ -60,6 +60,7 @@ class Walk {
     const RecordLayout& layout = layout_.records[static_cast<std::size_t>(record.layout)];
     if (layout.event == Event::function_enter) {
       frames_.emplace_back();
+      forgetResults(layout.function);
       learn(layout, record, 0);
       return;
     }
@@ -147,6 +148,12 @@ class Walk {
     std::for_each(at.init_changes.begin(), at.init_changes.end(), forget);
     std::for_each(at.increment_changes.begin(), at.increment_changes.end(), forget);
     for (const frontend::Declarator& declarator : at.declarators) forget(declarator.variable);
+  }
+
+  // What an earlier call put into its `out` parameters is not theirs in this one.
+  void forgetResults(frontend::FunctionId function) {
+    for (const VariableId id : shader_.functions[static_cast<std::size_t>(function)].parameters)
+      if (id != kNone && !shader_.variables[static_cast<std::size_t>(id)].parameter_in) known_.erase(id);
   }
 
   void remember(const RecordLayout& layout, VariableId id, const Value& value) {

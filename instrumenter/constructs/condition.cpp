@@ -87,7 +87,7 @@ void Conditions::putAfter(Edits& edits, StatementId id, const std::string& text)
   fillMissing(edits, range);
   if (statementAt(draft_.shader(), id).kind == StatementKind::switch_) {
     draft_.declare(draft_.adapt(helpers::k_switch_selector));
-    edits.wrap(range, draft_.name("select(") + draft_.name("keep("), "), (" + text + ", true))");
+    edits.wrap(range, draft_.name("select(") + draft_.name("keep(("), ")), (" + text + ", true))");
   } else {
     const std::string outcome = draft_.name("outcome");
     draft_.declare("bool " + outcome + ";");

@@ -4,7 +4,7 @@
 //   if (i++ < 10) s;           ->   if ((sd_outcome = (i++ < 10), after, sd_outcome)) s;
 //   for (;;) s;                ->   for (; (sd_outcome = (true), after, sd_outcome); ) s;
 //   while (bool b = f()) s;    ->   while (bool b = (sd_outcome = (f()), after, sd_outcome)) s;
-//   switch (e) { }             ->   switch (sd_select(sd_keep(e), (after, true))) { }
+//   switch (e) { }             ->   switch (sd_select(sd_keep((e)), (after, true))) { }
 //
 // The buffer can be one global for all conditions: nothing of the user's runs between writing and reading it.
 #pragma once

@@ -1,4 +1,4 @@
-// switch (sd_select(sd_keep(e), (..., true))): e is evaluated and kept, then what stands at the dots runs, then e is
+// switch (sd_select(sd_keep((e)), (..., true))): e is evaluated and kept, then what stands at the dots runs, then e is
 // the result. Works for both types that a selector can have; arguments are evaluated from left to right.
 SD_HIGHP int sd_selector;
 SD_HIGHP int sd_keep(SD_HIGHP int value) {

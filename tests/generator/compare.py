@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from interpret import Interpreter, Pixel, Step
+from interpret import Pixel, Step
 from tree import Function, Type, Variable
 
 WIDEST = 64  # words: wider values are left out of recordings (instrumenter.h)
@@ -39,6 +39,9 @@ def whole_declarations(shown: list[dict]) -> list[dict]:
         else:
             before = {name: one for changed in open_at.values() for name, one in changed.items()}
             whole.append(step | {"before": before} if before else step)
+            for changed in open_at.values():  # newer values than those
+                for name in step["changed"]:
+                    changed.pop(name, None)
     return whole
 
 
@@ -47,11 +50,12 @@ def calls_nothing(steps: list[Step], n: int) -> bool:
     return steps[n].kind == "call" and (n + 1 == len(steps) or steps[n + 1].kind != "enter")
 
 
-def steps(shown: list[dict], pixel: Pixel, interpreter: Interpreter, complete: bool = True) -> list[str]:
+def steps(shown: list[dict], pixel: Pixel, complete: bool = True) -> list[str]:
     """Every step: its place, what it is, which way it went, every value that changed, and that none is missing (unless
     the steps are not complete)."""
     problems: list[str] = []
     view: list[dict[Variable, list]] = [{}, {}]  # globals, then a dictionary a call
+    initial = dict(pixel.initial)
     shown = whole_declarations(shown)
     for n, truth in enumerate(pixel.steps):
         if calls_nothing(pixel.steps, n) and (n >= len(shown) or shown[n]["kind"] != "call"):
@@ -75,9 +79,10 @@ def steps(shown: list[dict], pixel: Pixel, interpreter: Interpreter, complete: b
             del view[truth.depth + 1:]
             view.append({})
         changed = {name: one for name, one in step.get("before", {}).items()
-                   if name in truth.values and truth.values[name][0].storage not in ("local", "parameter")}
+                   if name in truth.values and truth.values[name][0].storage not in ("local", "parameter")
+                   and truth.values[name][0].type.spelled() == one["type"].replace(" ", "")}  # else a local of that name
         problems += [f"step {n}, {describe(truth)}: {one}"
-                     for one in values(changed | step["changed"], truth, view, interpreter, complete)]
+                     for one in values(changed | step["changed"], truth, view, initial, complete)]
     else:
         if len(shown) > len(pixel.steps):
             problems.append(f"{len(shown)} steps instead of {len(pixel.steps)}")
@@ -88,12 +93,12 @@ def describe(step: Step) -> str:
     return f"{step.kind} at {step.at.line}:{step.at.column} in {step.function}"
 
 
-def values(changed: dict, truth: Step, view: list[dict], interpreter: Interpreter, complete: bool) -> list[str]:
+def values(changed: dict, truth: Step, view: list[dict], initial: dict, complete: bool) -> list[str]:
     problems = []
     # What changes where an inner name hides it is unknown until it is shown again.
     for v in [v for v in view[0] if truth.hidden.get(v) not in (None, view[0][v])]:
         del view[0][v]
-        interpreter.initial.pop(v, None)
+        initial.pop(v, None)
     for name, one in changed.items():
         got = flat(one["value"])
         if name == "return" and truth.returned is not None and name not in truth.values:
@@ -125,7 +130,7 @@ def values(changed: dict, truth: Step, view: list[dict], interpreter: Interprete
             if any(one is not None for one in right):
                 problems.append(f"{name} = {right} is never shown")
                 slot(v, truth, view)[v] = right
-        elif v not in view[0] and right != interpreter.initial.get(v, right):
+        elif v not in view[0] and right != initial.get(v, right):
             problems.append(f"{name} has changed to {right}, which is not shown")
             slot(v, truth, view)[v] = right
     return problems

@@ -220,6 +220,41 @@ TEST_F(Dialects, ACallThatReturnsNothingCanBeAnOperand) {
   }
 }
 
+// A comma inside of the selector made arguments of its operands.
+TEST_F(Dialects, ASelectorMayBeACommaExpression) {
+  expectAllRight(run({"verify", "--json"}, "330 core",
+                     "out vec4 color;\nvoid main() {\n  float sum = 1.0; int i = int(gl_FragCoord.x);\n"
+                     "  switch (sum += 2.0, i & 1) { case 0: sum += 4.0; break; case 1: ; }\n"
+                     "  color = vec4(sum, 0.0, 0.0, 1.0);\n}\n"));
+}
+
+// glslang counts no empty statement behind the last label.
+TEST_F(Dialects, TheLastLabelMayHaveNothingToDo) {
+  const std::string ends[] = {"case 1: ;", "case 1: {}", "case 0: sum = 2.0; default: ; ;"};
+  for (const std::string& end : ends)
+    expectAllRight(
+        run({"verify", "--json"}, "330 core",
+            "out vec4 color;\nvoid main() {\n  float sum = 1.0;\n  switch (int(gl_FragCoord.x) & 1) { " +
+                end + " }\n  color = vec4(sum, 0.0, 0.0, 1.0);\n}\n"));
+}
+
+// Following by redraws watched the output under the name that the declaration has just taken from it.
+TEST_F(Dialects, ADeclarationMayHideWhatItsInitializerChanges) {
+  expectAllRight(
+      run({"verify", "--json"}, "330 core",
+          "out vec4 color;\nint n = 3;\nvoid main() {\n  color = vec4(1.0);\n  {\n"
+          "    int color = int((color.x += 2.0, gl_FragCoord.x)), n = n++ + color;\n    n += color;\n  }\n"
+          "  color.y = float(n);\n}\n"));
+}
+
+// An `out` parameter has nothing yet when its function begins, whatever an earlier call left there.
+TEST_F(Dialects, ResultsOfAnEarlierCallAreNotThoseOfThisOne) {
+  expectAllRight(run(
+      {"verify", "--json"}, "330 core",
+      "out vec4 color;\nint f(out int r, int by) {\n  r = by;\n  return r * 2;\n}\n"
+      "void main() {\n  int a, b;\n  a = f(b, 3) + b;\n  a += f(b, 4);\n  color = vec4(a, b, 0, 1);\n}\n"));
+}
+
 TEST_F(Dialects, SubroutineTypesAreNoFunctions) {
   const std::string shader =
       "subroutine float Way(int n, inout float x);\n"

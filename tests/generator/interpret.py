@@ -49,6 +49,7 @@ class Pixel:
     steps: list[Step]
     discarded: bool
     outputs: dict  # Variable -> value
+    initial: dict  # of globals: their values before main
     loops: dict  # loop statement -> list of iterations, one per time that it was entered
 
 
@@ -92,7 +93,7 @@ class Interpreter(Evaluator):
         except Discarded:
             discarded = True
         outputs = {v: value for v, value in self.env.items() if v.storage in ("out", "builtin-out")}
-        return Pixel(self.steps, discarded, outputs, self.loop_counts)
+        return Pixel(self.steps, discarded, outputs, self.initial, self.loop_counts)
 
     def step(self, kind: str, at, visible: dict, outcome=None, returned=None, iteration: int | None = None) -> None:
         self.count += 1

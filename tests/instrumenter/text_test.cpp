@@ -73,7 +73,7 @@ TEST(Condition, ThatDeclaresIsBufferedInItsInitializer) {
 
 TEST(Condition, OfASwitchKeepsItsType) {
   expectProbed("void main() {\nswitch (n) { case 1: color = vec4(0.0); }\n}", 6, When::after,
-               "switch (sd_select(sd_keep(n), (CAPTURE, true))) {");
+               "switch (sd_select(sd_keep((n)), (CAPTURE, true))) {");
 }
 
 TEST(Loop, CountsInItsCondition) {
