@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "debugger-gui/backend/thumbnail.h"
+
 namespace shadestep::gui {
 
 using session::Outcome;
@@ -35,9 +37,13 @@ void Debugger::leaveStop() {
   values_ = previous_values_ = nullptr;
   run_ = nullptr;
   run_reason_.clear();
+  origin_ = nullptr;
+  emits_ = nullptr;
   target_ = nullptr;
   loops_ = nullptr;
   gl_state_.clear();
+  textures_ = nullptr;
+  texture_ = nullptr;
   forgetProcess();
   Q_EMIT callChanged();
   Q_EMIT stopChanged();
@@ -67,6 +73,7 @@ void Debugger::start(const ProgramSpec& spec) {
   if (program_ == Program::running) backend_.endProgramNow();
   spec_ = spec;
   draws_.clear();
+  listed_.clear();
   fragments_ = {};
   Q_EMIT drawsChanged();
   leaveStop();
@@ -158,16 +165,20 @@ void Debugger::nextFrame() {
   if (program_ == Program::stopped) goTo(stop_->draw.stop.frame + 1, stop_->draw.stop.draw);
 }
 
-void Debugger::listFrame() {
+void Debugger::listFrame(bool thumbnails) {
   if (program_ != Program::stopped) return;
   const session::DrawStop here = stop_->draw.stop;
   leaveStop();
   setProgram(Program::running);
   backend_.ask(
       tr("Listing the draws of frame %1").arg(here.frame), "",
-      [](Debuggee& debuggee) { return debuggee.listFrame(); },
-      [this, here](const std::vector<DrawEntry>& draws) {
-        for (const DrawEntry& draw : draws) addDraw(draw);
+      [this, thumbnails](Debuggee& debuggee) {
+        return debuggee.listFrame(thumbnails, [this](std::size_t draws) { backend_.reportCount(draws); });
+      },
+      [this, here](FrameList list) {
+        for (const DrawEntry& draw : list.draws) addDraw(draw);
+        list.draws.clear();
+        listed_[list.frame] = std::move(list);
         Q_EMIT drawsChanged();
         goTo(here.frame, here.draw);
       });
@@ -199,11 +210,30 @@ void Debugger::addDraw(const DrawEntry& entry) {
   auto at = std::lower_bound(draws_.begin(), draws_.end(), entry,
                              [&](const DrawEntry& a, const DrawEntry& b) { return key(a) < key(b); });
   if (at != draws_.end() && key(*at) == key(entry)) {
+    const QImage before = at->thumbnail;
     *at = entry;
+    if (at->thumbnail.isNull()) at->thumbnail = before;
   } else {
     draws_.insert(at, entry);
   }
 }
+
+namespace {
+
+// The one that was looked at before, the fragment stage, or whichever can be debugged.
+session::Stage stageToShow(const Stop& stop, session::Stage before) {
+  const auto can = [&](session::Stage stage) {
+    return std::any_of(stop.stages.begin(), stop.stages.end(),
+                       [stage](const StageSource& one) { return one.stage == stage && one.reason.empty(); });
+  };
+  if (can(before)) return before;
+  if (can(session::Stage::fragment)) return session::Stage::fragment;
+  for (const StageSource& one : stop.stages)
+    if (one.reason.empty()) return one.stage;
+  return session::Stage::fragment;
+}
+
+}  // namespace
 
 void Debugger::arrived(Stop stop) {
   addDraw(stop.draw);
@@ -216,12 +246,13 @@ void Debugger::arrived(Stop stop) {
   watchProcess();
   setProgram(Program::stopped);
   Q_EMIT stopChanged();
-  if (stop_->draw.reason.empty()) {
-    restartShader();
-    askTarget();
-  } else {
+  if (!stop_->draw.reason.empty()) {
     Q_EMIT message(QString::fromStdString(stop_->draw.reason), true);
+    return;
   }
+  changeStage(stageToShow(*stop_, stage()));
+  restartShader();
+  askTarget();
 }
 
 void Debugger::askTarget() {
@@ -230,6 +261,11 @@ void Debugger::askTarget() {
       [this](const TargetPtr& target) {
         target_ = target;
         Q_EMIT targetChanged();
+        if (!stop_ || !target_ || target_->outputs.empty()) return;
+        DrawEntry entry = stop_->draw;
+        entry.thumbnail = thumbnailOf(target_->outputs.front(), target_->width, target_->height);
+        addDraw(entry);
+        Q_EMIT drawsChanged();
       });
 }
 
@@ -282,10 +318,10 @@ bool Debugger::canGoBack() const {
   return canStep() && (!way_.empty() || runStep() > 0);
 }
 
-const StageSource* Debugger::fragmentSource() const {
+const StageSource* Debugger::source(session::Stage stage) const {
   if (!stop_) return nullptr;
   for (const StageSource& source : stop_->stages)
-    if (source.stage == session::Stage::fragment) return &source;
+    if (source.stage == stage) return &source;
   return nullptr;
 }
 
@@ -299,57 +335,6 @@ int Debugger::runStep() const {
   for (std::size_t i = 0; i < run_->positions.size(); ++i)
     if (run_->positions[i] == place_->position) return static_cast<int>(i);
   return -1;
-}
-
-// ---- all of the draw
-
-void Debugger::askLoops() {
-  if (program_ != Program::stopped) return;
-  backend_.ask(
-      tr("Counting iterations"), "loops", [](Debuggee& debuggee) { return debuggee.loops(); },
-      [this](const LoopsPtr& loops) {
-        loops_ = loops;
-        Q_EMIT loopsChanged();
-      });
-}
-
-void Debugger::askProfile(const CostRequest& request) {
-  if (program_ != Program::stopped) return;
-  backend_.ask(
-      tr("Measuring costs"), "profile",
-      [this, request](Debuggee& debuggee) {
-        return debuggee.profile(request, [this](double share) { backend_.report(share); });
-      },
-      [this, here = std::pair(stop_->draw.stop.frame, stop_->draw.stop.draw)](const ProfilePtr& profile) {
-        profile_ = profile;
-        profiled_ = here;
-        Q_EMIT profileChanged();
-      });
-}
-
-bool Debugger::profileIsOfThisDraw() const {
-  return profile_ && stop_ && profiled_ == std::pair(stop_->draw.stop.frame, stop_->draw.stop.draw);
-}
-
-void Debugger::askGlState() {
-  if (program_ != Program::stopped) return;
-  backend_.ask(
-      tr("Reading the GL state"), "state", [](Debuggee& debuggee) { return debuggee.glState(); },
-      [this](const GlState& state) {
-        gl_state_ = state;
-        Q_EMIT glStateChanged();
-      });
-}
-
-void Debugger::setFragments(const session::FragmentChoice& choice) {
-  if (program_ != Program::stopped || !place_) return;
-  const session::Position position = place_->position;
-  askPlace(tr("Choosing fragments"), [choice, position](Debuggee& debuggee) {
-    debuggee.chooseFragments(choice);
-    return debuggee.moveTo(position);
-  });
-  fragments_ = choice;
-  askTarget();
 }
 
 }  // namespace shadestep::gui

@@ -28,8 +28,8 @@ struct Breakpoint {
 
 // Which picture the picture view shows.
 struct PictureSource {
-  enum class Kind { target, value, outcome, iterations, cost, difference } kind = Kind::target;
-  QString name;   // value: the expression
+  enum class Kind { target, value, outcome, iterations, cost, difference, texture } kind = Kind::target;
+  QString name;   // value: the expression; texture: the sampler
   int index = 0;  // target: the output; iterations: the loop
   bool operator==(const PictureSource&) const = default;
 };
@@ -53,12 +53,21 @@ class Debugger : public QObject {
   const ProgramSpec& spec() const { return spec_; }
   const std::optional<Stop>& stop() const { return stop_; }
   const QList<DrawEntry>& draws() const { return draws_; }
+  // By frame: how often what was called from the first draw listed on.
+  const QMap<std::uint64_t, FrameList>& listed() const { return listed_; }
   const std::optional<Place>& place() const { return place_; }
   const std::optional<session::CallStop>& call() const { return call_; }    // at which the program waits
   const std::vector<session::LoggedCall>& calls() const { return calls_; }  // made on the way here, if logged
   const LookPtr& values() const { return values_; }
   const LookPtr& previousValues() const { return previous_values_; }  // at the place before
-  const std::optional<Pixel>& pixel() const { return pixel_; }
+  session::Stage stage() const { return picked_.stage; }              // that is looked at
+  const Picked& picked() const { return picked_; }
+  std::optional<std::size_t> pickedIndex() const;  // among values(); nothing if it is not there
+  QString pickedName() const;                      // "140, 120", "vertex 7, instance 0"; "" if none is
+  // Of the fragment stage, whichever stage is looked at.
+  const std::optional<Pixel>& pixel() const;
+  const OriginPtr& origin() const { return origin_; }  // the threads that the pixel's fragment comes from
+  const EmitsPtr& emits() const { return emits_; }
   const RunPtr& run() const { return run_; }
   const QString& runReason() const { return run_reason_; }  // why there is no run
   int runStep() const;                                      // the place's step in the run; -1: not on it
@@ -67,8 +76,10 @@ class Debugger : public QObject {
   const ProfilePtr& profile() const { return profile_; }  // of this draw or an earlier one
   bool profileIsOfThisDraw() const;
   const GlState& glState() const { return gl_state_; }
+  const TextureListPtr& textures() const { return textures_; }  // null: not asked for yet
+  const TexturePtr& texture() const { return texture_; }
   const session::FragmentChoice& fragments() const { return fragments_; }
-  const QMap<int, Breakpoint>& breakpoints() const { return breakpoints_; }  // by line
+  QMap<int, Breakpoint> breakpoints() const { return breakpoints_.value(stage()); }  // by line
   const QStringList& watches() const { return watches_; }
   const PictureSource& picture() const { return picture_; }
   std::optional<session::Check> check() const;  // of the values shown
@@ -76,7 +87,8 @@ class Debugger : public QObject {
   Backend& backend() { return backend_; }
   bool canStep() const;
   bool canGoBack() const;
-  const StageSource* fragmentSource() const;
+  const StageSource* source() const { return source(stage()); }
+  const StageSource* source(session::Stage) const;  // null where the draw has no such stage
 
   // ---- the program
   void start(const ProgramSpec&);
@@ -89,7 +101,7 @@ class Debugger : public QObject {
   void logCalls(bool on);
   bool canRun() const { return program_ == Program::stopped || program_ == Program::waiting; }
   void nextFrame();
-  void listFrame();
+  void listFrame(bool thumbnails = false);
   void runToEnd();
   void endProgram();
   void cancel() { backend_.cancel(); }
@@ -106,7 +118,12 @@ class Debugger : public QObject {
   void backInto();
   void backOut();
 
+  void selectStage(session::Stage);  // starts at its main
+  // In another stage than the fragment stage: the threads that its fragment comes from.
   void pick(std::optional<Pixel>);
+  void pick(const session::ThreadName&);  // of the stage that is looked at
+  // The threads of that stage which the picked pixel's fragment comes from; goes to the first of them.
+  void askOrigin(session::Stage);
   void setBreakpoint(int line, std::optional<Breakpoint>);
   void toggleBreakpoint(int line);
   void addWatch(const QString& expression);
@@ -114,9 +131,12 @@ class Debugger : public QObject {
   void show(const PictureSource&);
 
   // ---- all of the draw
+  void askEmits();
   void askLoops();
   void askProfile(const CostRequest&);
   void askGlState();
+  void askTextures();
+  void askTexture(const QString& sampler, int level, int slice);  // and shows it
   void setFragments(const session::FragmentChoice&);
 
   // ---- the session file: program, draw, pixel, breakpoints, watches
@@ -130,12 +150,16 @@ class Debugger : public QObject {
   void callChanged();
   void placeChanged();
   void valuesChanged();
-  void pixelChanged();
+  void stageChanged();
+  void pickedChanged();
+  void originChanged();
+  void emitsChanged();
   void runChanged();
   void targetChanged();
   void loopsChanged();
   void profileChanged();
   void glStateChanged();
+  void texturesChanged();
   void breakpointsChanged();
   void watchesChanged();
   void pictureChanged();
@@ -150,6 +174,8 @@ class Debugger : public QObject {
   void placed(Place);
   void lookAgain();
   void followRun();
+  void setPicked(const Picked&);
+  void changeStage(session::Stage);
   void failed(const QString& what, const QString& sentence, session::Outcome);
   void watchProcess();
   void forgetProcess();
@@ -165,12 +191,16 @@ class Debugger : public QObject {
   ProgramSpec spec_;
   std::optional<Stop> stop_;
   QList<DrawEntry> draws_;
+  QMap<std::uint64_t, FrameList> listed_;  // their draws stand in draws_
   std::optional<Place> place_;
   std::optional<session::CallStop> call_;
   std::vector<session::LoggedCall> calls_;
   std::vector<session::Position> way_;  // positions before the present one
   LookPtr values_, previous_values_;
-  std::optional<Pixel> pixel_;
+  Picked picked_;
+  QMap<session::Stage, Picked> picks_;  // of the other stages
+  OriginPtr origin_;
+  EmitsPtr emits_;
   RunPtr run_;
   QString run_reason_;
   TargetPtr target_;
@@ -178,8 +208,10 @@ class Debugger : public QObject {
   ProfilePtr profile_;
   std::pair<std::uint64_t, std::uint64_t> profiled_;  // frame and draw
   GlState gl_state_;
+  TextureListPtr textures_;
+  TexturePtr texture_;
   session::FragmentChoice fragments_;
-  QMap<int, Breakpoint> breakpoints_;
+  QMap<session::Stage, QMap<int, Breakpoint>> breakpoints_;
   QStringList watches_;
   PictureSource picture_;
   std::unique_ptr<QSocketNotifier> process_end_;

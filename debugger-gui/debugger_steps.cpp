@@ -18,6 +18,7 @@ void Debugger::askPlace(const QString& what, std::function<Place(Debuggee&)> wor
 }
 
 void Debugger::placed(Place place) {
+  if (place.stage != stage()) return;  // another stage has been chosen meanwhile
   if (place_ && !place_->ended && place_->position != place.position) {
     way_.push_back(place_->position);
     previous_values_ = values_;
@@ -46,7 +47,7 @@ void Debugger::lookAgain() {
         return std::pair(position, debuggee.look(names));
       },
       [this](const std::pair<session::Position, LookPtr>& found) {
-        if (!place_ || place_->position != found.first) return;
+        if (!place_ || place_->position != found.first || found.second->stage != stage()) return;
         values_ = found.second;
         Q_EMIT valuesChanged();
       });
@@ -69,11 +70,9 @@ void Debugger::restartShader() {
   way_.clear();
   place_.reset();
   values_ = previous_values_ = nullptr;
-  askPlace(tr("Going to the start of main"), [pixel = pixel_](Debuggee& debuggee) {
-    debuggee.pick(pixel);
-    return debuggee.restartShader();
-  });
-  if (pixel_ && !run_) followRun();
+  askPlace(tr("Going to the start of main"),
+           [picked = picked_](Debuggee& debuggee) { return debuggee.restartShader(picked); });
+  if (picked_.any() && !run_) followRun();
 }
 
 void Debugger::setIteration(std::size_t loop, int iteration) {
@@ -90,11 +89,11 @@ void Debugger::setIteration(std::size_t loop, int iteration) {
 // ---- along the picked thread's way
 
 void Debugger::followRun() {
-  if (!pixel_ || program_ != Program::stopped) return;
+  if (!picked_.any() || program_ != Program::stopped) return;
   backend_.ask(
       tr("Recording the picked thread"), "run",
-      [pixel = *pixel_](Debuggee& debuggee) -> std::pair<RunPtr, QString> {
-        debuggee.pick(pixel);
+      [picked = picked_](Debuggee& debuggee) -> std::pair<RunPtr, QString> {
+        debuggee.pick(picked);
         try {
           return {debuggee.followPicked(), {}};
         } catch (const Error& error) {
@@ -103,6 +102,7 @@ void Debugger::followRun() {
         }
       },
       [this](const std::pair<RunPtr, QString>& found) {
+        if (found.first && found.first->picked != picked_) return;
         run_ = found.first;
         run_reason_ = found.second;
         Q_EMIT runChanged();
@@ -160,18 +160,17 @@ struct Candidate {
   std::optional<Condition> condition;
 };
 
-bool holdsAt(Debuggee& debuggee, const Candidate& candidate, Pixel pixel) {
+bool holdsAt(Debuggee& debuggee, const Candidate& candidate, const Picked& picked) {
   if (!candidate.condition) return true;
   const LookPtr look = debuggee.look({candidate.condition->name});
   if (look->threads.values.empty())
     throw Error(Outcome::nothing_matches,
                 "the condition cannot be evaluated: " + look->refused.front().second);
   const session::ThreadValues& threads = look->threads;
-  const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(threads.width) +
-                            static_cast<std::size_t>(pixel.x);
+  const auto index = picked.in(threads);
   const session::WatchedValues& value = threads.values.front();
-  if (!threads.reachedAt(index) || !value.type.isScalar()) return false;
-  return holds(*candidate.condition, session::componentAsDouble(value.type.basic, value.at(index)));
+  if (!index || !threads.reachedAt(*index) || !value.type.isScalar()) return false;
+  return holds(*candidate.condition, session::componentAsDouble(value.type.basic, value.at(*index)));
 }
 
 }  // namespace
@@ -179,20 +178,22 @@ bool holdsAt(Debuggee& debuggee, const Candidate& candidate, Pixel pixel) {
 void Debugger::resume(bool backwards) {
   if (!canStep()) return;
   if (!run_) {
-    Q_EMIT message(run_reason_.isEmpty()
-                       ? tr("Pick a pixel in the picture first: its thread's way is followed")
-                       : run_reason_,
-                   true);
+    Q_EMIT message(
+        run_reason_.isEmpty()
+            ? tr("Pick a thread first, by a pixel in the picture or a row in Threads: its way is followed")
+            : run_reason_,
+        true);
     return;
   }
   const int here = runStep();
   std::vector<Candidate> candidates;
   QMap<int, int> visits;
+  const QMap<int, Breakpoint> marked = breakpoints();
   for (int i = 0; i < static_cast<int>(run_->positions.size()); ++i) {
     const session::Step& step = run_->run.steps[static_cast<std::size_t>(i)];
     const auto& position = run_->positions[static_cast<std::size_t>(i)];
-    const auto breakpoint = breakpoints_.constFind(step.line);
-    if (!position || breakpoint == breakpoints_.constEnd() || !breakpoint->enabled) continue;
+    const auto breakpoint = marked.constFind(step.line);
+    if (!position || breakpoint == marked.constEnd() || !breakpoint->enabled) continue;
     if (visits[step.line]++ < breakpoint->ignore) continue;
     if (backwards ? i >= here : i <= here) continue;
     std::optional<Condition> condition;
@@ -212,10 +213,10 @@ void Debugger::resume(bool backwards) {
   const session::Position from = place_->position;
   backend_.ask(
       backwards ? tr("Running back to a breakpoint") : tr("Running to a breakpoint"), "",
-      [candidates, from, pixel = *pixel_](Debuggee& debuggee) {
+      [candidates, from, picked = picked_](Debuggee& debuggee) {
         for (const Candidate& candidate : candidates) {
           Place place = debuggee.moveTo(candidate.position);
-          if (holdsAt(debuggee, candidate, pixel)) return std::pair(true, std::move(place));
+          if (holdsAt(debuggee, candidate, picked)) return std::pair(true, std::move(place));
         }
         return std::pair(false, debuggee.moveTo(from));
       },

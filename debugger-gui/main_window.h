@@ -6,17 +6,17 @@
 #include <QMainWindow>
 #include <QMap>
 #include <QProgressBar>
-#include <QTabWidget>
 #include <QTimer>
 #include <QToolButton>
 
 #include "debugger-gui/debugger.h"
 #include "debugger-gui/panels/picture_panel.h"
+#include "debugger-gui/panels/source_tabs.h"
 #include "debugger-gui/panels/stack_panel.h"
+#include "debugger-gui/panels/threads_panel.h"
 #include "debugger-gui/panels/variables_panel.h"
 #include "debugger-gui/style/theme.h"
 #include "debugger-gui/views/check_badge.h"
-#include "debugger-gui/views/source_view.h"
 
 namespace shadestep::gui {
 
@@ -29,7 +29,10 @@ class MainWindow : public QMainWindow {
   Debugger& debugger() { return debugger_; }
   PicturePanel& picture() { return *picture_; }
   VariablesPanel& variables() { return *variables_; }
-  SourceView* source() const;  // of the fragment shader; null before there is one
+  ThreadsPanel& threads() { return *threads_; }
+  SourceView* source() const {
+    return sources_->here();
+  }  // where the threads stand; null before there is one
   QAction* action(const QString& name) const { return actions_.value(name); }
   QDockWidget* dock(const QString& name) const { return docks_.value(name); }
   void start(const ProgramSpec&);
@@ -51,22 +54,17 @@ class MainWindow : public QMainWindow {
                 const std::function<void()>& what);
   void connectDebugger();
   void refreshActions();
-  void refreshSources();
-  void refreshPlace();
-  void refreshCosts();
   void showMessage(const QString& sentence, bool is_error);
-  void editBreakpoint(int line);
-  QString describeExpression(const QString& expression) const;
   void saveSession();
 
   Debugger debugger_;
   QMap<QString, QAction*> actions_;
   QMap<QString, QDockWidget*> docks_;
-  QTabWidget* sources_;
-  QMap<session::Stage, SourceView*> views_;
+  SourceTabs* sources_;
   PicturePanel* picture_;
   VariablesPanel* variables_;
   StackPanel* stack_;
+  ThreadsPanel* threads_;
   QFrame* notice_;
   QLabel* notice_text_;
   QTimer notice_timer_;

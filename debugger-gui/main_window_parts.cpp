@@ -14,6 +14,7 @@
 #include "debugger-gui/panels/loops_panel.h"
 #include "debugger-gui/panels/run_panel.h"
 #include "debugger-gui/panels/state_panel.h"
+#include "debugger-gui/panels/threads_panel.h"
 #include "debugger-gui/style/icons.h"
 
 namespace shadestep::gui {
@@ -82,12 +83,8 @@ void MainWindow::makeActions() {
        [&] { debugger.move(Move::leave_loop); });
   make("breakpoint", tr("&Breakpoint"), tr("Set or remove a breakpoint at the cursor"), {QKeySequence("F9")},
        [this] {
-         SourceView* view = source();
-         if (view == nullptr) return;
-         int line = 0;
-         int column = 0;
-         view->getCursorPosition(&line, &column);
-         debugger_.toggleBreakpoint(line + 1);
+         if (const auto* view = qobject_cast<SourceView*>(sources_->currentWidget()))
+           debugger_.toggleBreakpoint(view->cursorLine());
        });
 }
 
@@ -154,12 +151,14 @@ void MainWindow::makeDocks() {
   QDockWidget* frames = dock("frames", tr("Frames"), new FramePanel(debugger_), Qt::LeftDockWidgetArea);
   QDockWidget* stack = dock("stack", tr("Calls and loops"), stack_, Qt::LeftDockWidgetArea);
   QDockWidget* picture = dock("picture", tr("Picture"), picture_, Qt::RightDockWidgetArea);
-  QDockWidget* variables = dock("variables", tr("Variables"), variables_, Qt::BottomDockWidgetArea);
+  QDockWidget* variables = dock("variables", tr("Variables"), variables_, Qt::RightDockWidgetArea);
   auto* cost = new CostPanel(debugger_);
   connect(cost, &CostPanel::lineChosen, stack_, &StackPanel::lineChosen);
-  QDockWidget* last = variables;
+  connect(cost, &CostPanel::landscapeAsked, picture_, [this] { picture_->showInSpace(true); });
+  QDockWidget* run = dock("run", tr("Steps"), new RunPanel(debugger_), Qt::BottomDockWidgetArea);
+  QDockWidget* last = run;
   for (const auto& [name, title, panel] :
-       {std::tuple<const char*, QString, QWidget*>{"run", tr("Thread"), new RunPanel(debugger_)},
+       {std::tuple<const char*, QString, QWidget*>{"threads", tr("Threads"), threads_},
         {"loops", tr("Loops"), new LoopsPanel(debugger_)},
         {"cost", tr("Cost"), cost},
         {"calls", tr("Calls"), new CallsPanel(debugger_)},
@@ -168,11 +167,12 @@ void MainWindow::makeDocks() {
     tabifyDockWidget(last, made);
     last = made;
   }
-  variables->raise();
+  run->raise();
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
-  resizeDocks({frames, picture}, {240, 430}, Qt::Horizontal);
-  resizeDocks({frames, stack}, {430, 200}, Qt::Vertical);
-  resizeDocks({variables}, {310}, Qt::Vertical);
+  resizeDocks({frames, picture}, {220, 450}, Qt::Horizontal);
+  resizeDocks({frames, stack}, {300, 170}, Qt::Vertical);
+  resizeDocks({picture, variables}, {410, 330}, Qt::Vertical);
+  resizeDocks({run}, {250}, Qt::Vertical);
 }
 
 void MainWindow::makeStatus() {

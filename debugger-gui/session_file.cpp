@@ -8,13 +8,26 @@
 namespace shadestep::gui {
 namespace {
 constexpr const char* kFormat = "shadestep session 1";
+
+// Files of before there were other stages name none.
+session::Stage stageIn(const QJsonObject& object) {
+  return session::stageByName(object["stage"].toString("fragment").toStdString())
+      .value_or(session::Stage::fragment);
 }
+}  // namespace
 
 QByteArray Debugger::saved() const {
   QJsonArray breakpoints;
-  for (auto at = breakpoints_.constBegin(); at != breakpoints_.constEnd(); ++at)
-    breakpoints.append(QJsonObject{
-        {"line", at.key()}, {"enabled", at->enabled}, {"condition", at->condition}, {"ignore", at->ignore}});
+  for (auto stage = breakpoints_.constBegin(); stage != breakpoints_.constEnd(); ++stage)
+    for (auto at = stage->constBegin(); at != stage->constEnd(); ++at)
+      breakpoints.append(QJsonObject{{"stage", session::stageName(stage.key())},
+                                     {"line", at.key()},
+                                     {"enabled", at->enabled},
+                                     {"condition", at->condition},
+                                     {"ignore", at->ignore}});
+  QJsonArray thread;
+  for (const auto& [name, number] : picked_.thread)
+    thread.append(QJsonArray{QString::fromStdString(name), number});
   const auto draw =
       stop_ ? std::pair(stop_->draw.stop.frame, stop_->draw.stop.draw) : std::pair(spec_.frame, spec_.draw);
   QJsonObject document{{"format", kFormat},
@@ -23,9 +36,11 @@ QByteArray Debugger::saved() const {
                        {"directory", spec_.directory},
                        {"frame", static_cast<qint64>(draw.first)},
                        {"draw", static_cast<qint64>(draw.second)},
+                       {"stage", session::stageName(stage())},
+                       {"thread", thread},
                        {"breakpoints", breakpoints},
                        {"watches", QJsonArray::fromStringList(watches_)}};
-  if (pixel_) document["pixel"] = QJsonArray{pixel_->x, pixel_->y};
+  if (pixel()) document["pixel"] = QJsonArray{pixel()->x, pixel()->y};
   return QJsonDocument(document).toJson();
 }
 
@@ -49,16 +64,25 @@ void Debugger::restore(const QByteArray& bytes) {
   breakpoints_.clear();
   for (const QJsonValue value : document["breakpoints"].toArray()) {
     const QJsonObject one = value.toObject();
-    breakpoints_[one["line"].toInt()] = {one["enabled"].toBool(true), one["condition"].toString(),
-                                         one["ignore"].toInt()};
+    breakpoints_[stageIn(one)][one["line"].toInt()] = {one["enabled"].toBool(true),
+                                                       one["condition"].toString(), one["ignore"].toInt()};
   }
   watches_ = strings("watches");
   const QJsonArray pixel = document["pixel"].toArray();
-  pixel_.reset();
-  if (pixel.size() == 2) pixel_ = Pixel{pixel[0].toInt(), pixel[1].toInt()};
+  Picked fragment;
+  if (pixel.size() == 2) fragment.pixel = Pixel{pixel[0].toInt(), pixel[1].toInt()};
+  picks_.clear();
+  picked_ = fragment;
+  if (stageIn(document) != session::Stage::fragment) {
+    picks_[session::Stage::fragment] = fragment;
+    picked_ = {stageIn(document), {}, {}};
+    for (const QJsonValue part : document["thread"].toArray())
+      picked_.thread.emplace_back(part[0].toString().toStdString(), part[1].toInt());
+  }
+  Q_EMIT stageChanged();
   Q_EMIT breakpointsChanged();
   Q_EMIT watchesChanged();
-  Q_EMIT pixelChanged();
+  Q_EMIT pickedChanged();
   start(spec);
 }
 

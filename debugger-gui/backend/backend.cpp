@@ -71,4 +71,11 @@ void Backend::report(double share) {
       this, [this, share] { Q_EMIT progress(share); }, Qt::QueuedConnection);
 }
 
+void Backend::reportCount(std::size_t done) {
+  if (last_report_.elapsed() < kReportEveryMs) return;
+  last_report_.restart();
+  QMetaObject::invokeMethod(
+      this, [this, done] { Q_EMIT counted(done); }, Qt::QueuedConnection);
+}
+
 }  // namespace shadestep::gui

@@ -45,11 +45,13 @@ class Backend : public QObject {
   int process() const { return debuggee_.process(); }
   // Shares done, from the worker thread.
   void report(double share);
+  void reportCount(std::size_t done);  // of work whose end is not known
 
  Q_SIGNALS:
   void started(const QString& what);
   void becameIdle();
   void progress(double share);
+  void counted(qulonglong done);
   void failed(const QString& what, const QString& sentence, shadestep::session::Outcome);
 
  private:

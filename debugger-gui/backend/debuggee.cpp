@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "profiler/profile_files.h"
 #include "session/window.h"
 
 namespace shadestep::gui {
@@ -149,36 +148,51 @@ void Debuggee::skipCall() {
   session_->skipCall();
 }
 
-void Debuggee::logCalls(bool on) {
+void Debuggee::keep(const session::LoggedCall& call) {
   constexpr std::size_t kMostLogged = 50'000;  // between two halts; the rest is left out
+  if (calls_.size() < kMostLogged) calls_.push_back(call);
+}
+
+void Debuggee::logCalls(bool on) {
   log_calls_ = on;
   if (session_ == nullptr) return;
   if (!on) return session_->tellCalls({}, {});
-  session_->tellCalls({}, [this](const session::LoggedCall& one) {
-    if (calls_.size() < kMostLogged) calls_.push_back(one);
-  });
+  session_->tellCalls({}, [this](const session::LoggedCall& one) { keep(one); });
 }
 
-std::vector<DrawEntry> Debuggee::listFrame() {
+FrameList Debuggee::listFrame(bool thumbnails, const std::function<void(std::size_t draws)>& progress) {
   if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
-  std::vector<DrawEntry> draws;
-  if (stop_) draws.push_back(entry());
-  const std::uint64_t frame = stop_ ? stop_->frame : ahead_.first;
+  FrameList list;
+  list.frame = stop_ ? stop_->frame : ahead_.first;
+  const auto add = [&] {
+    list.draws.push_back(entry());
+    if (thumbnails) list.draws.back().thumbnail = thumbnail();
+    progress(list.draws.size());
+  };
+  if (stop_) add();
   leave();
-  try {
-    session_->forEachDraw(frame, frame, [&](const session::DrawStop& stop) {
-      if (cancelled_) throw Error(Outcome::usage, "the list ends where it was stopped");
-      if (!draws.empty() && stop.draw <= draws.back().stop.draw) return;
-      stop_ = stop;
-      draws.push_back(entry());
-    });
-  } catch (const Error& error) {
-    if (error.outcome() == Outcome::ended) end();
-    if (draws.empty()) throw;
+  calls_.clear();
+  session_->tellCalls({}, [&](const session::LoggedCall& call) {
+    if (call.frame == list.frame) ++list.calls[call.name];
+    if (log_calls_) keep(call);
+  });
+  session::StopCondition condition;
+  condition.next_draw = true;
+  condition.frame = list.frame + 1;
+  ahead_ = {list.frame + 1, 0};
+  while (!cancelled_) {
+    const session::Stop found = session_->runUntil(condition);
+    if (found.reason == session::StopReason::ended) {
+      end();
+      return list;
+    }
+    stop_ = found.draw;
+    if (!stop_ || stop_->frame != list.frame) break;
+    add();
   }
-  ahead_ = {frame + 1, 0};
   stop_.reset();
-  return draws;
+  logCalls(log_calls_);
+  return list;
 }
 
 int Debuggee::runToEnd() {
@@ -206,23 +220,27 @@ session::Session& Debuggee::atDraw() {
 // ---- in the shader
 
 std::optional<session::ThreadName> Debuggee::pickedThread() const {
-  if (!pixel_) return std::nullopt;
-  return session::pixelName(pixel_->x, pixel_->y);
+  if (!picked_.any()) return std::nullopt;
+  return picked_.pixel ? session::pixelName(picked_.pixel->x, picked_.pixel->y) : picked_.thread;
 }
 
 session::Stepper& Debuggee::stepper() {
   session::Session& session = atDraw();
+  session.select(picked_.stage);
   session.requireCapturable();
   if (!stepper_) stepper_ = std::make_unique<session::Stepper>(session, pickedThread());
   return *stepper_;
 }
 
-void Debuggee::pick(std::optional<Pixel> pixel) {
-  pixel_ = pixel;
+void Debuggee::pick(const Picked& picked) {
+  if (picked.stage != picked_.stage) stepper_.reset();
+  picked_ = picked;
+  if (session_ != nullptr) session_->select(picked.stage);
   if (stepper_) stepper_->pick(pickedThread());
 }
 
-Place Debuggee::restartShader() {
+Place Debuggee::restartShader(const Picked& picked) {
+  pick(picked);
   stepper().moveTo(stepper().navigation().start());
   return place();
 }
@@ -290,6 +308,7 @@ LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
     }
   }
   look->threads = at.look(wanted);
+  look->stage = picked_.stage;
   for (const session::WatchedValues& value : look->threads.values)
     if (!value.no_value.empty()) look->refused.emplace_back(value.name, value.no_value);
   std::erase_if(look->threads.values, [](const auto& value) { return !value.no_value.empty(); });
@@ -300,59 +319,14 @@ LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
 
 RunPtr Debuggee::followPicked() {
   session::Session& session = atDraw();
-  if (!pixel_) throw Error(Outcome::usage, "pick a pixel first");
+  if (!picked_.any()) throw Error(Outcome::usage, "pick a thread first");
   auto view = std::make_shared<RunView>();
-  view->run = session::followPixel(session, pixel_->x, pixel_->y);
-  view->positions = session::positionsOf(session.shader(session::Stage::fragment), view->run.steps);
+  view->run = picked_.stage == session::Stage::fragment
+                  ? session::followPixel(session, picked_.pixel->x, picked_.pixel->y)
+                  : session::followThread(session, picked_.thread);
+  view->positions = session::positionsOf(session.shader(), view->run.steps);
+  view->picked = picked_;
   return view;
-}
-
-// ---- all of the draw
-
-void Debuggee::chooseFragments(const session::FragmentChoice& choice) {
-  atDraw().choose(choice);
-  fragments_ = choice;
-  stepper_.reset();
-}
-
-TargetPtr Debuggee::target() {
-  session::Session& session = atDraw();
-  session::ExecuteOptions options;
-  options.compare = false;
-  options.read_outputs = true;
-  options.read_captures = false;
-  session::Execution execution = session.execute(session.prepareOriginal(), options);
-  auto target = std::make_shared<TargetView>();
-  target->width = session.facts().width;
-  target->height = session.facts().height;
-  target->outputs = std::move(execution.outputs);
-  return target;
-}
-
-LoopsPtr Debuggee::loops() {
-  return std::make_shared<session::LoopsReport>(session::profileLoops(atDraw()));
-}
-
-ProfilePtr Debuggee::profile(const CostRequest& request, const std::function<void(double)>& progress) {
-  session::Session& session = atDraw();
-  session.requireCapturable();
-  std::optional<profiler::Earlier> earlier;
-  if (!request.compare_to.empty()) earlier = profiler::readEarlier(request.compare_to);
-  profiler::ProfileOptions options;
-  options.budget = request.budget;
-  options.progress = progress;
-  options.stop = [this] { return cancelled_.load(); };
-  auto view = std::make_shared<ProfileView>();
-  const std::string method = earlier && request.method == "auto" ? earlier->method : request.method;
-  view->profile = profiler::profileBy(method, session, options);
-  view->source = session.shader(session::Stage::fragment).lines;
-  view->subject = profiler::subjectOf(launch_.command.front(), session);
-  if (earlier) view->comparison = profiler::compare(*earlier, view->profile, view->source);
-  return view;
-}
-
-GlState Debuggee::glState() {
-  return atDraw().glState();
 }
 
 }  // namespace shadestep::gui

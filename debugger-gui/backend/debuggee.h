@@ -16,11 +16,6 @@ namespace shadestep::gui {
 
 enum class Move { over, into, out, next_iteration, leave_loop };
 
-struct Pixel {
-  int x = 0, y = 0;
-  bool operator==(const Pixel&) const = default;
-};
-
 struct CostRequest {
   std::string method = "auto";
   double budget = 12;      // seconds
@@ -47,25 +42,30 @@ class Debuggee {
   // From now on Halt::calls tells of the program's calls, or no longer.
   void logCalls(bool on);
   // The draws from the present stop to the end of its frame, or of the next one; then the program stands
-  // before the frame after it.
-  std::vector<DrawEntry> listFrame();
+  // before the frame after it. With thumbnails every draw is replayed once.
+  FrameList listFrame(bool thumbnails, const std::function<void(std::size_t draws)>& progress);
   // Lets the program go on to its own end; its exit status.
   int runToEnd();
 
-  void pick(std::optional<Pixel>);
-  Place restartShader();
+  void pick(const Picked&);
+  // At the start of main of its stage.
+  Place restartShader(const Picked&);
   Place move(Move);
   Place moveTo(const session::Position&);
   Place toLine(int line);
   Place choose(const std::string& side);
   LookPtr look(const std::vector<std::string>& expressions);
   RunPtr followPicked();
+  OriginPtr origin(Pixel, session::Stage);  // of the pixel's fragment; the stage that is looked at stays
+  EmitsPtr emits();                         // of the draw's geometry shader
 
   void chooseFragments(const session::FragmentChoice&);
   TargetPtr target();
   LoopsPtr loops();
   ProfilePtr profile(const CostRequest&, const std::function<void(double)>& progress);
   GlState glState();
+  TextureListPtr textures();  // of the fragment shader
+  TexturePtr texture(const std::string& uniform, int level, int slice);
 
   // Any thread: asks what takes long to stop, and ends a wait for a program that does not get to where it
   // should, with the program.
@@ -81,7 +81,10 @@ class Debuggee {
   void runTo(std::uint64_t frame, std::uint64_t draw);
   void leave();
   void noteCall();
+  void keep(const session::LoggedCall&);
   DrawEntry entry();
+  QImage thumbnail();
+  std::string whyNot(session::Stage);
   session::Stepper& stepper();
   session::Session& atDraw();
   Place place();
@@ -94,7 +97,7 @@ class Debuggee {
   std::pair<std::uint64_t, std::uint64_t> ahead_;  // the first frame and draw that the program has not passed
   std::vector<session::LoggedCall> calls_;         // since the last halt
   bool log_calls_ = false;
-  std::optional<Pixel> pixel_;
+  Picked picked_;
   session::FragmentChoice fragments_;
   std::optional<profiler::Earlier> earlier_;
   std::atomic<bool> cancelled_ = false;

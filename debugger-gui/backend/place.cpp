@@ -56,6 +56,7 @@ Place Debuggee::place() {
   session::Stepper& at = stepper();
   const Shader& shader = at.shader();
   Place place;
+  place.stage = picked_.stage;
   place.position = at.position();
   place.ended = at.ended();
   if (place.ended) return place;

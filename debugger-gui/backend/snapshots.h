@@ -1,21 +1,25 @@
 // What the worker thread hands to the window: values of their own, that nobody changes any more.
 #pragma once
 
+#include <QImage>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "debugger-gui/backend/picked.h"
 #include "profiler/comparison.h"
 #include "profiler/profile.h"
+#include "session/emits.h"
+#include "session/fragment_origin.h"
 #include "session/loops.h"
 #include "session/run_positions.h"
 #include "session/session.h"
 #include "session/stepper.h"
-#include "session/thread_values.h"
-
+#include "session/texture_image.h"
 namespace shadestep::gui {
 
 // A draw as the frame tree shows it.
@@ -23,7 +27,15 @@ struct DrawEntry {
   session::DrawStop stop;
   std::uint32_t program = 0, framebuffer = 0;
   int viewport[4] = {0, 0, 0, 0};
-  std::string reason;  // why its fragment shader cannot be debugged; empty if it can
+  std::string reason;  // why none of its shaders can be debugged; empty if one can
+  QImage thumbnail;    // of the target after the draw; null: not looked at
+};
+
+// The draws of a frame from some draw on, and how often what was called from there to the frame's end.
+struct FrameList {
+  std::uint64_t frame = 0;
+  std::vector<DrawEntry> draws;
+  std::map<std::string, std::uint64_t> calls;
 };
 
 struct StageSource {
@@ -79,6 +91,7 @@ struct LoopAround {
 
 // Where the threads stand in the shader.
 struct Place {
+  session::Stage stage = session::Stage::fragment;
   session::Position position;
   bool ended = false;
   int line = 0, column = 0;        // of the statement; 0 where the threads have ended
@@ -92,6 +105,7 @@ struct Place {
 };
 
 struct Look {
+  session::Stage stage = session::Stage::fragment;
   session::ThreadValues threads;
   std::vector<std::vector<session::ComponentStatistics>> statistics;  // per value of `threads`
   std::vector<std::pair<std::string, std::string>> refused;           // expression, why
@@ -100,6 +114,7 @@ using LookPtr = std::shared_ptr<const Look>;
 
 // One thread's recorded way.
 struct RunView {
+  Picked picked;
   session::ThreadRun run;
   std::vector<std::optional<session::Position>> positions;  // a step each
 };
@@ -111,6 +126,12 @@ struct TargetView {
   std::vector<session::ColorOutput> outputs;
 };
 using TargetPtr = std::shared_ptr<const TargetView>;
+
+using OriginPtr = std::shared_ptr<const session::FragmentOrigin>;
+using EmitsPtr = std::shared_ptr<const session::GeometryEmits>;
+
+using TextureListPtr = std::shared_ptr<const std::vector<session::ShaderTexture>>;
+using TexturePtr = std::shared_ptr<const session::TextureImage>;
 
 using LoopsPtr = std::shared_ptr<const session::LoopsReport>;
 

@@ -9,15 +9,6 @@ using session::Error;
 
 namespace {
 
-std::string whyNot(session::Session& session) {
-  try {
-    session.requireCapturable();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
 std::vector<std::string> textOf(const session::StageFacts& facts) {
   std::string whole;
   for (const auto& object : facts.objects)
@@ -33,10 +24,10 @@ std::vector<std::string> textOf(const session::StageFacts& facts) {
   return lines;
 }
 
-StageSource sourceOf(session::Session& session, const session::StageFacts& facts) {
+StageSource sourceOf(session::Session& session, const session::StageFacts& facts, const std::string& reason) {
   StageSource source;
   source.stage = facts.stage;
-  source.reason = facts.reason;
+  source.reason = reason;
   try {
     const frontend::Shader& shader = session.shader(facts.stage);
     source.version = shader.version;
@@ -48,12 +39,24 @@ StageSource sourceOf(session::Session& session, const session::StageFacts& facts
     if (source.reason.empty()) source.reason = error.what();
     source.lines = textOf(facts);
   }
-  if (facts.stage != session::Stage::fragment && source.reason.empty())
-    source.reason = "this version of shadestep steps through fragment shaders only";
   return source;
 }
 
 }  // namespace
+
+// Why a stage of the present draw cannot be debugged; empty if it can.
+std::string Debuggee::whyNot(session::Stage stage) {
+  const session::Stage before = session_->stage();
+  session_->select(stage);
+  std::string reason;
+  try {
+    session_->requireCapturable();
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  session_->select(before);
+  return reason;
+}
 
 DrawEntry Debuggee::entry() {
   DrawEntry entry;
@@ -62,7 +65,9 @@ DrawEntry Debuggee::entry() {
   entry.program = facts.program;
   entry.framebuffer = facts.framebuffer;
   std::copy(std::begin(facts.viewport), std::end(facts.viewport), std::begin(entry.viewport));
-  entry.reason = whyNot(*session_);
+  entry.reason = whyNot(session::Stage::fragment);
+  for (const session::StageFacts& stage : facts.stages)
+    if (!entry.reason.empty() && whyNot(stage.stage).empty()) entry.reason.clear();
   return entry;
 }
 
@@ -71,7 +76,7 @@ Stop Debuggee::stopped(bool restarted) {
   stop.draw = entry();
   stop.facts = session_->facts();
   for (const session::StageFacts& facts : stop.facts.stages)
-    stop.stages.push_back(sourceOf(*session_, facts));
+    stop.stages.push_back(sourceOf(*session_, facts, whyNot(facts.stage)));
   stop.restarted = restarted;
   try {
     session_->choose(fragments_);

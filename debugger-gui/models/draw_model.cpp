@@ -101,7 +101,10 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
         return tr("%1: %2 × %3").arg(entry->framebuffer).arg(entry->viewport[2]).arg(entry->viewport[3]);
     }
   }
-  if (role == Qt::DecorationRole && index.column() == kDraw && isHere(*entry)) return icon("start");
+  if (role == Qt::DecorationRole && index.column() == kDraw) {
+    if (!entry->thumbnail.isNull()) return QIcon(QPixmap::fromImage(entry->thumbnail));
+    if (isHere(*entry)) return icon("start");
+  }
   if (role == Qt::FontRole && isHere(*entry)) {
     QFont font;
     font.setBold(true);
@@ -109,7 +112,9 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
   }
   if (role == Qt::ForegroundRole && !entry->reason.empty()) return theme().faint;
   if (role == Qt::ToolTipRole)
-    return entry->reason.empty() ? tr("Double-click to go there") : QString::fromStdString(entry->reason);
+    return entry->reason.empty()
+               ? tr("%1. Double-click to go there").arg(QString::fromStdString(entry->stop.call))
+               : QString::fromStdString(entry->reason);
   return {};
 }
 

@@ -161,23 +161,14 @@ const session::WatchedValues* VariableModel::valueOf(const LookPtr& look, const 
   return found == look->threads.values.end() ? nullptr : &*found;
 }
 
-std::optional<std::size_t> VariableModel::pickedIndex() const {
-  const LookPtr& look = debugger_.values();
-  const auto& pixel = debugger_.pixel();
-  if (!look || !pixel || pixel->x >= look->threads.width || pixel->y >= look->threads.height)
-    return std::nullopt;
-  return static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(look->threads.width) +
-         static_cast<std::size_t>(pixel->x);
-}
-
 QString VariableModel::valueText(const Node& node) const {
   if (!node.refused.isEmpty()) return tr("not here");
   const session::WatchedValues* value = valueOf(debugger_.values(), node);
-  const auto pixel = pickedIndex();
-  if (value == nullptr || !pixel) return {};
-  if (!debugger_.values()->threads.reachedAt(*pixel)) return tr("does not get here");
-  if (node.target.component < 0) return QString::fromStdString(session::formatValue(value->valueAt(*pixel)));
-  const std::uint32_t* word = value->at(*pixel);
+  const auto thread = debugger_.pickedIndex();
+  if (value == nullptr || !thread) return {};
+  if (!debugger_.values()->threads.reachedAt(*thread)) return tr("does not get here");
+  if (node.target.component < 0) return QString::fromStdString(session::formatValue(value->valueAt(*thread)));
+  const std::uint32_t* word = value->at(*thread);
   const auto components = frontend::components(value->type);
   for (int i = 0; i < node.target.component; ++i)
     word += session::wordsPerComponent(components[static_cast<std::size_t>(i)].basic);
@@ -188,10 +179,11 @@ QString VariableModel::valueText(const Node& node) const {
 bool VariableModel::changed(const Node& node) const {
   const session::WatchedValues* now = valueOf(debugger_.values(), node);
   const session::WatchedValues* before = valueOf(debugger_.previousValues(), node);
-  const auto pixel = pickedIndex();
-  if (now == nullptr || before == nullptr || !pixel || now->type != before->type) return false;
-  if (!debugger_.values()->threads.reachedAt(*pixel) ||
-      !debugger_.previousValues()->threads.reachedAt(*pixel))
+  if (now == nullptr || before == nullptr || now->type != before->type) return false;
+  const auto here = debugger_.picked().in(debugger_.values()->threads);
+  const auto there = debugger_.picked().in(debugger_.previousValues()->threads);
+  if (!here || !there || !debugger_.values()->threads.reachedAt(*here) ||
+      !debugger_.previousValues()->threads.reachedAt(*there))
     return false;
   std::size_t first = 0;
   std::size_t count = now->stride;
@@ -203,7 +195,7 @@ bool VariableModel::changed(const Node& node) const {
     count = static_cast<std::size_t>(
         session::wordsPerComponent(components[static_cast<std::size_t>(node.target.component)].basic));
   }
-  return !std::equal(now->at(*pixel) + first, now->at(*pixel) + first + count, before->at(*pixel) + first);
+  return !std::equal(now->at(*here) + first, now->at(*here) + first + count, before->at(*there) + first);
 }
 
 QVariant VariableModel::range(const Node& node, bool high) const {
@@ -252,6 +244,7 @@ QVariant VariableModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::ForegroundRole && index.column() != kName && index.column() != kValue) return theme().faint;
   if (role == Qt::ForegroundRole && is_group) return theme().faint;
   if (role == Qt::ToolTipRole && !node.refused.isEmpty()) return node.refused;
+  if (role == Qt::ToolTipRole && !is_group && index.column() == kValue) return valueText(node);
   return {};
 }
 
@@ -261,13 +254,13 @@ QVariant VariableModel::headerData(int section, Qt::Orientation orientation, int
     case kName:
       return tr("Name");
     case kValue: {
-      const auto& pixel = debugger_.pixel();
-      return pixel ? tr("Value at %1, %2").arg(pixel->x).arg(pixel->y) : tr("Value (pick a pixel)");
+      const QString name = debugger_.pickedName();
+      return name.isEmpty() ? tr("Value (pick a thread)") : tr("Value at %1").arg(name);
     }
     case kMin:
-      return tr("Least of all");
+      return tr("Least");
     case kMax:
-      return tr("Greatest of all");
+      return tr("Greatest");
     default:
       return tr("Type");
   }

@@ -41,7 +41,6 @@ class VariableModel : public QAbstractItemModel {
   QString valueText(const Node&) const;
   bool changed(const Node&) const;
   const session::WatchedValues* valueOf(const LookPtr&, const Node&) const;
-  std::optional<std::size_t> pickedIndex() const;
   QVariant range(const Node&, bool high) const;
 
   const Debugger& debugger_;

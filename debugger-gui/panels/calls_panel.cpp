@@ -1,7 +1,9 @@
 #include "debugger-gui/panels/calls_panel.h"
 
 #include <QHeaderView>
+#include <QTabWidget>
 #include <QVBoxLayout>
+#include <map>
 
 #include "debugger-gui/style/theme.h"
 #include "session/text.h"
@@ -76,7 +78,8 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
       log_(new QCheckBox(tr("Log"))),
       title_(new QLabel),
       arguments_(new QTreeWidget),
-      table_(new QTableView) {
+      table_(new QTableView),
+      counts_(new QTableWidget) {
   const auto stop_button = [this](const QString& name, const QString& tip, const auto& fill) {
     auto* made = new QPushButton(name);
     made->setToolTip(tip);
@@ -132,7 +135,18 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   call->addWidget(skip_);
   auto* columns = new QHBoxLayout;
   columns->addLayout(call, 2);
-  columns->addWidget(table_, 3);
+  auto* tabs = new QTabWidget;
+  tabs->setDocumentMode(true);
+  tabs->addTab(table_, tr("Log"));
+  tabs->addTab(counts_, tr("Statistics"));
+  counts_->setShowGrid(false);
+  counts_->verticalHeader()->hide();
+  counts_->verticalHeader()->setDefaultSectionSize(counts_->fontMetrics().height() + 6);
+  counts_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  counts_->setAlternatingRowColors(true);
+  counts_->setSortingEnabled(true);
+  counts_->setAccessibleName(tr("How often what is called"));
+  columns->addWidget(tabs, 3);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(6, 4, 6, 4);
   column->setSpacing(4);
@@ -155,6 +169,7 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   connect(&debugger_, &Debugger::programChanged, this, &CallsPanel::refresh);
   connect(&debugger_, &Debugger::drawsChanged, this, [this] {
     if (debugger_.draws().isEmpty()) model_.clear();
+    countCalls();
   });
   refresh();
 }
@@ -164,6 +179,42 @@ void CallsPanel::refresh() {
   pause_->setEnabled(debugger_.program() == Debugger::Program::running);
   showCall();
   table_->scrollToBottom();
+}
+
+// Of the frames that were listed, and of all of them.
+void CallsPanel::countCalls() {
+  const QMap<std::uint64_t, FrameList>& frames = debugger_.listed();
+  QStringList names{tr("Call")};
+  std::map<std::string, qulonglong> total;
+  for (const FrameList& frame : frames) {
+    names.push_back(tr("Frame %1").arg(frame.frame));
+    for (const auto& [name, count] : frame.calls) total[name] += count;
+  }
+  names.push_back(tr("Total"));
+  counts_->setSortingEnabled(false);
+  counts_->setRowCount(static_cast<int>(total.size()));
+  counts_->setColumnCount(static_cast<int>(names.size()));
+  counts_->setHorizontalHeaderLabels(names);
+  counts_->setColumnWidth(0, 200);
+  int row = 0;
+  for (const auto& [name, sum] : total) {
+    int column = 0;
+    const auto put = [&](const QVariant& value) {
+      auto* item = new QTableWidgetItem;
+      item->setData(Qt::DisplayRole, value);
+      if (column > 0) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      counts_->setItem(row, column++, item);
+    };
+    put(text(name));
+    for (const FrameList& frame : frames) {
+      const auto found = frame.calls.find(name);
+      put(found == frame.calls.end() ? qulonglong(0) : qulonglong(found->second));
+    }
+    put(sum);
+    ++row;
+  }
+  counts_->setSortingEnabled(true);
+  counts_->sortByColumn(static_cast<int>(names.size()) - 1, Qt::DescendingOrder);
 }
 
 void CallsPanel::showCall() {

@@ -1,4 +1,5 @@
-// The program's calls: where to stop, the call at which it waits with its arguments to change, and the log.
+// The program's calls: where to stop, the call at which it waits with its arguments to change, the log, and
+// how often what is called in each frame.
 #pragma once
 
 #include <QAbstractTableModel>
@@ -8,6 +9,7 @@
 #include <QPushButton>
 #include <QSortFilterProxyModel>
 #include <QTableView>
+#include <QTableWidget>
 #include <QTreeWidget>
 
 #include "debugger-gui/debugger.h"
@@ -33,10 +35,12 @@ class CallsPanel : public QWidget {
   Q_OBJECT
  public:
   explicit CallsPanel(Debugger&, QWidget* parent = nullptr);
+  QTableWidget& counts() { return *counts_; }
 
  private:
   void refresh();
   void showCall();
+  void countCalls();
 
   Debugger& debugger_;
   CallModel model_;
@@ -48,6 +52,7 @@ class CallsPanel : public QWidget {
   QLabel* title_;
   QTreeWidget* arguments_;
   QTableView* table_;
+  QTableWidget* counts_;  // of the frames listed
 };
 
 }  // namespace shadestep::gui

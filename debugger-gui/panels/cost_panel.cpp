@@ -1,16 +1,13 @@
 #include "debugger-gui/panels/cost_panel.h"
 
-#include <QDialog>
 #include <QDir>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QPixmap>
 #include <QToolButton>
 #include <algorithm>
 
 #include "debugger-gui/style/icons.h"
 #include "debugger-gui/style/theme.h"
-#include "profiler/pictures/height_field.h"
 #include "profiler/pictures/ticks.h"
 #include "profiler/profile_files.h"
 #include "session/text.h"
@@ -89,7 +86,10 @@ CostPanel::CostPanel(Debugger& debugger, QWidget* parent)
   });
   connect(browse, &QToolButton::clicked, this, &CostPanel::chooseEarlier);
   connect(save_, &QPushButton::clicked, this, &CostPanel::saveAll);
-  connect(height_, &QPushButton::clicked, this, &CostPanel::showHeight);
+  connect(height_, &QPushButton::clicked, this, [this] {
+    debugger_.show({PictureSource::Kind::cost, {}, 0});
+    Q_EMIT landscapeAsked();
+  });
   connect(lines_, &QTreeWidget::itemActivated, this,
           [this](QTreeWidgetItem* item) { Q_EMIT lineChosen(item->text(0).toInt()); });
   connect(&debugger_, &Debugger::profileChanged, this, [this] {
@@ -180,23 +180,6 @@ void CostPanel::saveAll() {
             }
           });
   dialog->open();
-}
-
-void CostPanel::showHeight() {
-  const ProfilePtr& view = debugger_.profile();
-  const std::string png = profiler::drawHeightField(
-      view->profile.map, {"Cost per pixel: " + std::string(profiler::methodName(view->profile.method)),
-                          view->subject,
-                          view->profile.unit,
-                          {}});
-  QPixmap pixmap;
-  pixmap.loadFromData(reinterpret_cast<const uchar*>(png.data()), static_cast<uint>(png.size()));
-  pixmap.setDevicePixelRatio(2);
-  auto* window = new QLabel(this, Qt::Window);
-  window->setAttribute(Qt::WA_DeleteOnClose);
-  window->setWindowTitle(tr("Costs as a landscape"));
-  window->setPixmap(pixmap);
-  window->show();
 }
 
 }  // namespace shadestep::gui

@@ -20,12 +20,12 @@ class CostPanel : public QWidget {
 
  Q_SIGNALS:
   void lineChosen(int line);
+  void landscapeAsked();
 
  private:
   void refresh();
   void chooseEarlier();
   void saveAll();
-  void showHeight();
 
   Debugger& debugger_;
   QComboBox* method_;

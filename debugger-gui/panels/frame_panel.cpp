@@ -4,10 +4,17 @@
 #include <QMenu>
 #include <QVBoxLayout>
 
+#include "debugger-gui/style/icons.h"
+
 namespace shadestep::gui {
 
 FramePanel::FramePanel(Debugger& debugger, QWidget* parent)
-    : QWidget(parent), debugger_(debugger), model_(debugger), search_(new QLineEdit), tree_(new QTreeView) {
+    : QWidget(parent),
+      debugger_(debugger),
+      model_(debugger),
+      search_(new QLineEdit),
+      tree_(new QTreeView),
+      thumbnails_(new QToolButton) {
   filter_.setSourceModel(&model_);
   filter_.setRecursiveFilteringEnabled(true);
   filter_.setFilterKeyColumn(-1);
@@ -20,7 +27,7 @@ FramePanel::FramePanel(Debugger& debugger, QWidget* parent)
   tree_->setIndentation(12);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->header()->setStretchLastSection(true);
-  for (const auto& [column, width] : {std::pair{0, 74}, {1, 118}, {2, 92}, {3, 58}})
+  for (const auto& [column, width] : {std::pair{0, 92}, {1, 108}, {2, 92}, {3, 58}})
     tree_->setColumnWidth(column, width);
   tree_->setAccessibleName(tr("Frames and draws"));
   auto* column = new QVBoxLayout(this);
@@ -29,6 +36,11 @@ FramePanel::FramePanel(Debugger& debugger, QWidget* parent)
   auto* head = new QHBoxLayout;
   head->setContentsMargins(6, 0, 6, 0);
   head->addWidget(search_);
+  head->addWidget(thumbnails_);
+  thumbnails_->setIcon(icon("pictures"));
+  thumbnails_->setAutoRaise(true);
+  thumbnails_->setToolTip(tr("List all draws of this frame with what each leaves in its target"));
+  connect(thumbnails_, &QToolButton::clicked, this, [this] { debugger_.listFrame(true); });
   column->addLayout(head);
   column->addWidget(tree_);
 
@@ -47,6 +59,11 @@ const DrawEntry* FramePanel::drawAt(const QModelIndex& shown) const {
 
 void FramePanel::refresh() {
   model_.refresh();
+  const QList<DrawEntry>& draws = debugger_.draws();
+  const bool pictures =
+      std::any_of(draws.begin(), draws.end(), [](const auto& one) { return !one.thumbnail.isNull(); });
+  tree_->setIconSize(pictures ? QSize(40, 30) : QSize(16, 16));
+  thumbnails_->setEnabled(debugger_.program() == Debugger::Program::stopped);
   tree_->expandAll();
   for (int frame = 0; frame < filter_.rowCount(); ++frame) tree_->setFirstColumnSpanned(frame, {}, true);
   if (!debugger_.stop()) return;

@@ -3,6 +3,7 @@
 
 #include <QLineEdit>
 #include <QSortFilterProxyModel>
+#include <QToolButton>
 #include <QTreeView>
 
 #include "debugger-gui/models/draw_model.h"
@@ -13,6 +14,7 @@ class FramePanel : public QWidget {
   Q_OBJECT
  public:
   explicit FramePanel(Debugger&, QWidget* parent = nullptr);
+  QTreeView& tree() { return *tree_; }
 
  private:
   void refresh();
@@ -24,6 +26,7 @@ class FramePanel : public QWidget {
   QSortFilterProxyModel filter_;
   QLineEdit* search_;
   QTreeView* tree_;
+  QToolButton* thumbnails_;
 };
 
 }  // namespace shadestep::gui

@@ -21,12 +21,15 @@ LoopsPanel::LoopsPanel(Debugger& debugger, QWidget* parent)
     loops_->setColumnWidth(column, width);
   auto* count = new QPushButton(tr("Count the loops"));
   auto* keep_button = new QPushButton(tr("Keep to compare"));
-  keep_button->setToolTip(tr("Draws these curves beneath those of the next count, of this draw or another"));
+  keep_button->setToolTip(tr("Draws these curves beneath those of the next counts, of this draw or another"));
+  auto* forget = new QPushButton(tr("Forget"));
+  forget->setToolTip(tr("Only the curves of now"));
   auto* left = new QVBoxLayout;
   left->setSpacing(4);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(count);
   buttons->addWidget(keep_button);
+  buttons->addWidget(forget);
   buttons->addWidget(check_);
   buttons->addStretch();
   left->addLayout(buttons);
@@ -37,6 +40,10 @@ LoopsPanel::LoopsPanel(Debugger& debugger, QWidget* parent)
   columns->addWidget(curves_, 3);
   connect(count, &QPushButton::clicked, &debugger_, &Debugger::askLoops);
   connect(keep_button, &QPushButton::clicked, this, &LoopsPanel::keep);
+  connect(forget, &QPushButton::clicked, this, [this] {
+    kept_.clear();
+    showCurve();
+  });
   connect(loops_, &QTreeWidget::currentItemChanged, this, &LoopsPanel::showCurve);
   connect(loops_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* item) {
     debugger_.show({PictureSource::Kind::iterations, {}, loops_->indexOfTopLevelItem(item)});
@@ -72,17 +79,21 @@ void LoopsPanel::showCurve() {
     const session::LoopReport& loop = report->loops[static_cast<std::size_t>(chosen)];
     return LoopCurve{name, loop.active, loop.left};
   };
-  curves_->show(curve(debugger_.loops(), tr("now")), curve(kept_, kept_name_));
+  std::vector<LoopCurve> before;
+  for (const Kept& one : kept_)
+    if (auto drawn = curve(one.loops, one.name)) before.push_back(std::move(*drawn));
+  curves_->show(curve(debugger_.loops(), tr("now")), std::move(before));
 }
 
 void LoopsPanel::keep() {
   if (!debugger_.loops() || !debugger_.stop()) return;
-  kept_ = debugger_.loops();
+  constexpr qsizetype kMost = 4;
   const session::DrawStop& stop = debugger_.stop()->draw.stop;
-  kept_name_ = tr("%1, frame %2, draw %3")
-                   .arg(debugger_.spec().command.value(0).section('/', -1))
-                   .arg(stop.frame)
-                   .arg(stop.draw);
+  QStringList words = debugger_.spec().command;
+  if (!words.isEmpty()) words.front() = words.front().section('/', -1);
+  kept_.push_back(
+      {debugger_.loops(), tr("%1, frame %2, draw %3").arg(words.join(' ')).arg(stop.frame).arg(stop.draw)});
+  if (kept_.size() > kMost) kept_.removeFirst();
   showCurve();
 }
 

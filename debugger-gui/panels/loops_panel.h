@@ -1,4 +1,4 @@
-// The loop profiler (thesis 7.1.6): loops, their curves, and an earlier count to compare with.
+// The loop profiler (thesis 7.1.6): loops, their curves, and earlier counts to compare with.
 #pragma once
 
 #include <QTreeWidget>
@@ -23,8 +23,11 @@ class LoopsPanel : public QWidget {
   QTreeWidget* loops_;
   LoopCurves* curves_;
   CheckBadge* check_;
-  LoopsPtr kept_;
-  QString kept_name_;
+  struct Kept {
+    LoopsPtr loops;
+    QString name;
+  };
+  QList<Kept> kept_;  // the last few, oldest first
 };
 
 }  // namespace shadestep::gui

@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "debugger-gui/style/icons.h"
 #include "debugger-gui/style/theme.h"
@@ -40,13 +41,17 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
       sources_(new QComboBox),
       check_(new CheckBadge),
       view_(new PictureView),
+      landscape_(new LandscapeView),
+      shown_(new QStackedWidget),
+      in_space_(new QToolButton),
       channels_(new QComboBox),
       low_(new QLineEdit),
       high_(new QLineEdit),
       automatic_(new QToolButton),
       gamma_(new QDoubleSpinBox),
       sides_(new QWidget),
-      hovered_(new QLabel) {
+      hovered_(new QLabel),
+      origin_(new QToolButton) {
   sources_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   sources_->setMinimumContentsLength(18);
   sources_->setToolTip(tr("Which picture is shown"));
@@ -71,6 +76,13 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
   hovered_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   hovered_->setMinimumWidth(60);
   hovered_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  in_space_->setText(tr("3D"));
+  in_space_->setCheckable(true);
+  in_space_->setAutoRaise(true);
+  in_space_->setToolTip(tr("The values as a landscape"));
+  origin_->setText(tr("Vertices"));
+  origin_->setAutoRaise(true);
+  origin_->setToolTip(tr("To the runs of the vertex shader that the picked pixel's fragment comes from"));
   QToolButton* fit = button("fit", tr("Fit into the view (0)"));
   QToolButton* save = button("save", tr("Save as PNG"));
 
@@ -91,25 +103,30 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
   tools->addWidget(automatic_);
   tools->addWidget(gamma_);
   tools->addStretch();
+  tools->addWidget(in_space_);
   tools->addWidget(fit);
   tools->addWidget(save);
   column->addLayout(tools);
-  column->addWidget(view_, 1);
+  shown_->addWidget(view_);
+  shown_->addWidget(landscape_);
+  column->addWidget(shown_, 1);
   auto* sides_row = new QHBoxLayout(sides_);
   sides_row->setContentsMargins(6, 0, 6, 0);
   column->addWidget(sides_);
   auto* foot = new QHBoxLayout;
   foot->setContentsMargins(8, 0, 8, 0);
   foot->addWidget(hovered_);
+  foot->addWidget(origin_);
   column->addLayout(foot);
   sides_->hide();
 
-  connect(view_, &PictureView::picked, this, [this](int x, int y) { debugger_.pick(Pixel{x, y}); });
+  connect(view_, &PictureView::picked, this, &PicturePanel::pick);
   connect(view_, &PictureView::hovered, this, &PicturePanel::showHovered);
   connect(view_, &PictureView::mappingChanged, this, [this] {
     low_->setText(number(view_->mapping().low));
     high_->setText(number(view_->mapping().high));
   });
+  connect(view_, &PictureView::shown, this, &PicturePanel::refreshLandscape);
   connect(sources_, &QComboBox::activated, this, [this](int i) { debugger_.show(listed_[i]); });
   connect(channels_, &QComboBox::activated, this, &PicturePanel::takeMapping);
   connect(automatic_, &QToolButton::clicked, this, &PicturePanel::takeMapping);
@@ -121,11 +138,16 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
       automatic_->setChecked(false);
       takeMapping();
     });
+  connect(in_space_, &QToolButton::toggled, this, &PicturePanel::showInSpace);
+  connect(origin_, &QToolButton::clicked, this, [this] {
+    const bool patches = debugger_.source(session::Stage::tess_control) != nullptr;
+    debugger_.askOrigin(patches ? session::Stage::tess_control : session::Stage::vertex);
+  });
   connect(fit, &QToolButton::clicked, view_, &PictureView::fit);
   connect(save, &QToolButton::clicked, this, &PicturePanel::exportPicture);
   for (const auto signal :
        {&Debugger::valuesChanged, &Debugger::targetChanged, &Debugger::pictureChanged,
-        &Debugger::loopsChanged, &Debugger::profileChanged, &Debugger::pixelChanged, &Debugger::stopChanged})
+        &Debugger::loopsChanged, &Debugger::profileChanged, &Debugger::pickedChanged, &Debugger::stopChanged})
     connect(&debugger_, signal, this, &PicturePanel::refresh);
   connect(&debugger_, &Debugger::placeChanged, this, [this] {
     // At a branch, its outcome is what one wants to see; behind it, what was shown before.
@@ -164,6 +186,10 @@ void PicturePanel::listSources() {
         debugger_.profileIsOfThisDraw() ? tr("Cost") : tr("Cost of the draw measured before"));
   if (debugger_.profile() && debugger_.profile()->comparison)
     add({Kind::difference, {}, 0}, tr("Cost against the earlier run"));
+  if (debugger_.texture()) {
+    const QString name = QString::fromStdString(debugger_.texture()->uniform);
+    add({Kind::texture, name, 0}, tr("Texture %1").arg(name));
+  }
   const PictureSource& shown = debugger_.picture();
   if (!listed_.contains(shown)) add(shown, shown.name.isEmpty() ? tr("(not here)") : shown.name);
   const QSignalBlocker quiet(sources_);
@@ -187,8 +213,32 @@ PicturePtr PicturePanel::current() const {
       return pictureOfCost(debugger_.profile());
     case Kind::difference:
       return pictureOfDifference(debugger_.profile());
+    case Kind::texture:
+      return pictureOfTexture(debugger_.texture());
   }
   return nullptr;
+}
+
+// Of a picture over pixels the picked pixel, of one over other threads the place of the picked one.
+std::optional<QPoint> PicturePanel::pickedIn(const PicturePtr& picture) const {
+  if (!picture || !picture->who) {
+    const auto& pixel = debugger_.pixel();
+    return pixel ? std::optional(QPoint(pixel->x, pixel->y)) : std::nullopt;
+  }
+  const auto thread = picture->find ? picture->find(debugger_.picked()) : std::nullopt;
+  if (!thread) return std::nullopt;
+  const auto found = std::find(picture->threads.begin(), picture->threads.end(), *thread);
+  if (found == picture->threads.end()) return std::nullopt;
+  const int at = static_cast<int>(found - picture->threads.begin());
+  return QPoint(at % picture->width, at / picture->width);
+}
+
+void PicturePanel::pick(int x, int y) {
+  const PicturePtr& picture = view_->picture();
+  const std::size_t pixel = picture->index(x, y);
+  if (!picture->who) return debugger_.pick(Pixel{x, y});
+  if (picture->name && picture->cells[pixel] != Picture::Cell::none)
+    debugger_.pick(picture->name(picture->thread(pixel)));
 }
 
 void PicturePanel::refresh() {
@@ -201,16 +251,17 @@ void PicturePanel::refresh() {
   for (QWidget* tool : std::initializer_list<QWidget*>{low_, high_, automatic_, gamma_})
     tool->setEnabled(numbers);
   channels_->setEnabled(numbers && picture->components > 1);
-  const auto& pixel = debugger_.pixel();
-  view_->setPicked(pixel ? std::optional(QPoint(pixel->x, pixel->y)) : std::nullopt);
+  view_->setPicked(pickedIn(picture));
   const Kind kind = debugger_.picture().kind;
   std::optional<session::Check> check;
   if (kind == Kind::value || kind == Kind::outcome) check = debugger_.check();
   if (kind == Kind::iterations && debugger_.loops()) check = debugger_.loops()->check;
   if ((kind == Kind::cost || kind == Kind::difference) && debugger_.profile())
     check = debugger_.profile()->profile.check;
-  check_->setVisible(kind != Kind::target);
+  check_->setVisible(kind != Kind::target && kind != Kind::texture);
   check_->setCheck(check);
+  origin_->setVisible(debugger_.pixel() && debugger_.stage() == session::Stage::fragment &&
+                      debugger_.source(session::Stage::vertex) != nullptr);
   showSides();
   showHovered(-1, -1);
 }
@@ -244,15 +295,25 @@ void PicturePanel::showSides() {
 }
 
 void PicturePanel::showHovered(int x, int y) {
-  const auto& pixel = debugger_.pixel();
-  const bool at_mouse = x >= 0;
-  if (!at_mouse && pixel) {
-    x = pixel->x;
-    y = pixel->y;
+  const auto picked = pickedIn(view_->picture());
+  if (x < 0 && picked) {
+    x = picked->x();
+    y = picked->y();
   }
   QString text = view_->describe(x, y);
-  if (text.isEmpty()) text = view_->picture() ? tr("Click a pixel to pick its thread") : QString();
+  if (text.isEmpty()) text = view_->picture() ? tr("A click picks a thread") : QString();
   hovered_->setText(text);
+}
+
+void PicturePanel::showInSpace(bool on) {
+  in_space_->setChecked(on);
+  shown_->setCurrentWidget(on ? static_cast<QWidget*>(landscape_) : view_);
+  refreshLandscape();
+}
+
+void PicturePanel::refreshLandscape() {
+  if (shown_->currentWidget() == landscape_)
+    landscape_->show(view_->picture(), view_->mapping(), view_->image());
 }
 
 void PicturePanel::takeMapping() {

@@ -59,7 +59,7 @@ QVariant RunModel::data(const QModelIndex& index, int role) const {
         return numbers.join(',');
       }
       case kSource: {
-        const StageSource* source = debugger_.fragmentSource();
+        const StageSource* source = debugger_.source();
         const auto line = static_cast<std::size_t>(step.line) - 1;
         if (step.kind == session::Step::Kind::enter) return "> " + QString::fromStdString(step.function);
         if (source == nullptr || line >= source->lines.size()) return {};
@@ -108,7 +108,7 @@ RunPanel::RunPanel(Debugger& debugger, QWidget* parent)
           [this](const QModelIndex& index) { debugger_.moveToStep(index.row()); });
   connect(table_, &QTableView::activated, this,
           [this](const QModelIndex& index) { debugger_.moveToStep(index.row()); });
-  for (const auto signal : {&Debugger::runChanged, &Debugger::pixelChanged, &Debugger::stopChanged})
+  for (const auto signal : {&Debugger::runChanged, &Debugger::pickedChanged, &Debugger::stopChanged})
     connect(&debugger_, signal, this, &RunPanel::refresh);
   connect(&debugger_, &Debugger::placeChanged, this, [this] {
     model_.refreshPlace();
@@ -119,16 +119,18 @@ RunPanel::RunPanel(Debugger& debugger, QWidget* parent)
 
 void RunPanel::refresh() {
   model_.refresh();
-  const auto& pixel = debugger_.pixel();
-  if (!pixel)
-    return summary_->setText(tr("Click a pixel in the picture: its thread's whole way is recorded here."));
+  const QString name = debugger_.pickedName();
+  if (name.isEmpty())
+    return summary_->setText(
+        debugger_.stage() == session::Stage::fragment
+            ? tr("Click a pixel in the picture: its thread's whole way is recorded here.")
+            : tr("Choose a row in Threads: its thread's whole way is recorded here."));
   const RunPtr& run = debugger_.run();
   if (!run) {
-    return summary_->setText(debugger_.runReason().isEmpty()
-                                 ? tr("No recording of pixel %1, %2 yet").arg(pixel->x).arg(pixel->y)
-                                 : debugger_.runReason());
+    return summary_->setText(debugger_.runReason().isEmpty() ? tr("No recording of %1 yet").arg(name)
+                                                             : debugger_.runReason());
   }
-  QString text = tr("Pixel %1, %2: %3 steps").arg(run->run.x).arg(run->run.y).arg(run->run.steps.size());
+  QString text = tr("%1: %2 steps").arg(name).arg(run->run.steps.size());
   if (run->run.hits > 1)
     text += tr("; fragment %1 of %2 on the pixel, %3")
                 .arg(run->run.hit)
@@ -136,6 +138,10 @@ void RunPanel::refresh() {
                 .arg(run->run.visible ? tr("the visible one") : tr("hidden"));
   if (run->run.discarded) text += tr("; ends in a discard");
   if (!run->run.complete) text += tr("; not followed to its end");
+  for (const session::NamedValue& input : run->run.inputs)
+    text += QString(";  %1 = %2")
+                .arg(QString::fromStdString(input.name),
+                     QString::fromStdString(session::formatValue(input.value)));
   summary_->setText(text);
 }
 

@@ -28,6 +28,10 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
       debugger_(debugger),
       search_(new QLineEdit),
       tree_(new QTreeWidget),
+      tabs_(new QTabWidget),
+      textures_(new QTreeWidget),
+      level_(new QSpinBox),
+      slice_(new QSpinBox),
       alpha_(switchBox()),
       depth_(switchBox()),
       stencil_(switchBox()),
@@ -42,7 +46,9 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
   tree_->setAlternatingRowColors(true);
   tree_->setRootIsDecorated(false);
   tree_->setColumnWidth(0, 330);
-  auto* left = new QVBoxLayout;
+  auto* state = new QWidget;
+  auto* left = new QVBoxLayout(state);
+  left->setContentsMargins(0, 4, 0, 0);
   left->setSpacing(4);
   left->addWidget(search_);
   left->addWidget(tree_, 1);
@@ -70,7 +76,10 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
   auto* columns = new QHBoxLayout(this);
   columns->setContentsMargins(6, 4, 8, 4);
   columns->setSpacing(14);
-  columns->addLayout(left, 1);
+  tabs_->setDocumentMode(true);
+  tabs_->addTab(state, tr("State"));
+  tabs_->addTab(makeTextures(), tr("Textures"));
+  columns->addWidget(tabs_, 1);
   columns->addLayout(tests);
 
   connect(search_, &QLineEdit::textChanged, this, &StatePanel::filter);
@@ -81,6 +90,38 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
   connect(clear_, &QCheckBox::clicked, this, &StatePanel::chooseFragments);
   connect(&debugger_, &Debugger::glStateChanged, this, &StatePanel::refresh);
   connect(&debugger_, &Debugger::stopChanged, this, &StatePanel::ask);
+  connect(&debugger_, &Debugger::texturesChanged, this, &StatePanel::refreshTextures);
+  connect(tabs_, &QTabWidget::currentChanged, this, &StatePanel::ask);
+}
+
+QWidget* StatePanel::makeTextures() {
+  textures_->setHeaderLabels(
+      {tr("Sampler"), tr("Type"), tr("Unit"), tr("Texture"), tr("Size"), tr("Levels"), tr("Why not")});
+  textures_->setRootIsDecorated(false);
+  textures_->setUniformRowHeights(true);
+  textures_->setAlternatingRowColors(true);
+  textures_->setAccessibleName(tr("Textures of the fragment shader"));
+  for (const auto& [column, width] : {std::pair{0, 130}, {1, 90}, {2, 44}, {3, 56}, {4, 110}, {5, 52}})
+    textures_->setColumnWidth(column, width);
+  level_->setPrefix(tr("level "));
+  slice_->setPrefix(tr("slice "));
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(6, 4, 6, 0);
+  head->addWidget(new QLabel(tr("A click shows the texels in the picture:")));
+  head->addWidget(level_);
+  head->addWidget(slice_);
+  head->addStretch();
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addLayout(head);
+  column->addWidget(textures_, 1);
+  connect(textures_, &QTreeWidget::itemClicked, this, &StatePanel::chooseTexture);
+  connect(textures_, &QTreeWidget::itemActivated, this, &StatePanel::chooseTexture);
+  for (QSpinBox* box : {level_, slice_})
+    connect(box, &QSpinBox::valueChanged, this, &StatePanel::readTexture);
+  return page;
 }
 
 void StatePanel::showEvent(QShowEvent*) {
@@ -96,7 +137,52 @@ void StatePanel::ask() {
   layer_->setMaximum(std::max(0, stop->facts.layers - 1));
   sample_->setMaximum(std::max(0, stop->facts.samples - 1));
   alpha_->setEnabled(!stop->facts.core && !stop->facts.es);
-  if (isVisible() && debugger_.glState().empty()) debugger_.askGlState();
+  if (!isVisible()) return;
+  if (tabs_->currentIndex() == kState && debugger_.glState().empty()) debugger_.askGlState();
+  if (tabs_->currentIndex() != kTextures || debugger_.textures()) return;
+  textures_->clear();
+  if (const StageSource* fragments = debugger_.source(session::Stage::fragment);
+      fragments != nullptr && fragments->reason.empty())
+    debugger_.askTextures();
+}
+
+void StatePanel::refreshTextures() {
+  textures_->clear();
+  for (const session::ShaderTexture& one : *debugger_.textures()) {
+    const session::SampledTexture& facts = one.facts;
+    QString size;
+    if (!facts.levels.empty()) {
+      const auto& base = facts.levels.front();
+      size = QString("%1 × %2").arg(base.width).arg(base.height);
+      if (base.depth > 1) size += QString(" × %1").arg(base.depth);
+    }
+    textures_->addTopLevelItem(
+        new QTreeWidgetItem({QString::fromStdString(facts.uniform), QString::fromStdString(one.type),
+                             QString::number(facts.unit), QString::number(facts.texture), size,
+                             QString::number(facts.levels.size()), QString::fromStdString(facts.reason)}));
+  }
+}
+
+// Its base level, and its first slice: of a volume the middle one, where most is to be seen.
+void StatePanel::chooseTexture() {
+  const int row = textures_->indexOfTopLevelItem(textures_->currentItem());
+  if (row < 0 || !debugger_.textures()) return;
+  const session::ShaderTexture& chosen = (*debugger_.textures())[static_cast<std::size_t>(row)];
+  if (chosen.facts.levels.empty()) return;
+  const QSignalBlocker quiet_level(level_);
+  const QSignalBlocker quiet_slice(slice_);
+  const int depth = chosen.facts.levels.front().depth;
+  level_->setRange(chosen.facts.base_level,
+                   chosen.facts.base_level + static_cast<int>(chosen.facts.levels.size()) - 1);
+  level_->setValue(chosen.facts.base_level);
+  slice_->setRange(0, std::max(depth, 1) - 1);
+  slice_->setValue(chosen.type.find("3D") != std::string::npos ? depth / 2 : 0);
+  readTexture();
+}
+
+void StatePanel::readTexture() {
+  const QTreeWidgetItem* item = textures_->currentItem();
+  if (item != nullptr) debugger_.askTexture(item->text(0), level_->value(), slice_->value());
 }
 
 void StatePanel::refresh() {

@@ -1,10 +1,12 @@
-// The GL state at the stopped draw, and which fragment tests the debugger's replays use (thesis 7.1.3).
+// The GL state and the textures at the stopped draw, and which fragment tests the debugger's replays use
+// (thesis 7.1.3).
 #pragma once
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLineEdit>
 #include <QSpinBox>
+#include <QTabWidget>
 #include <QTreeWidget>
 
 #include "debugger-gui/debugger.h"
@@ -15,6 +17,9 @@ class StatePanel : public QWidget {
   Q_OBJECT
  public:
   explicit StatePanel(Debugger&, QWidget* parent = nullptr);
+  enum Tab { kState, kTextures };
+  void showTab(Tab tab) { tabs_->setCurrentIndex(tab); }
+  QTreeWidget& textures() { return *textures_; }
 
  protected:
   void showEvent(QShowEvent*) override;
@@ -24,10 +29,17 @@ class StatePanel : public QWidget {
   void filter(const QString&);
   void chooseFragments();
   void ask();
+  QWidget* makeTextures();
+  void refreshTextures();
+  void chooseTexture();
+  void readTexture();
 
   Debugger& debugger_;
   QLineEdit* search_;
   QTreeWidget* tree_;
+  QTabWidget* tabs_;
+  QTreeWidget* textures_;
+  QSpinBox *level_, *slice_;
   QComboBox *alpha_, *depth_, *stencil_, *blend_;
   QSpinBox *layer_, *sample_;
   QCheckBox* clear_;

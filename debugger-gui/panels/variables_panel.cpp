@@ -29,7 +29,7 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setAccessibleName(tr("Variables"));
   tree_->header()->setStretchLastSection(true);
-  for (const auto& [column, width] : {std::pair{0, 140}, {1, 250}, {2, 90}, {3, 90}})
+  for (const auto& [column, width] : {std::pair{0, 106}, {1, 196}, {2, 70}, {3, 70}})
     tree_->setColumnWidth(column, width);
 
   auto* column = new QVBoxLayout(this);
@@ -40,11 +40,8 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   head->addWidget(expression_);
   head->addWidget(check_);
   column->addLayout(head);
-  auto* beside = new QHBoxLayout;
-  beside->setSpacing(0);
-  beside->addWidget(tree_, 3);
-  beside->addWidget(histogram_, 1);
-  column->addLayout(beside, 1);
+  column->addWidget(tree_, 1);
+  column->addWidget(histogram_);
 
   connect(expression_, &QLineEdit::returnPressed, this, [this] {
     debugger_.addWatch(expression_->text());
@@ -67,7 +64,7 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
     const auto target = model_.targetAt(tree_->currentIndex());
     if (target.is_watch) debugger_.removeWatch(target.variable);
   });
-  for (const auto signal : {&Debugger::valuesChanged, &Debugger::pixelChanged, &Debugger::watchesChanged,
+  for (const auto signal : {&Debugger::valuesChanged, &Debugger::pickedChanged, &Debugger::watchesChanged,
                             &Debugger::placeChanged, &Debugger::stopChanged})
     connect(&debugger_, signal, this, &VariablesPanel::refresh);
 }
@@ -92,13 +89,7 @@ void VariablesPanel::refresh() {
 
 void VariablesPanel::showDistribution() {
   const auto target = model_.targetAt(tree_->currentIndex());
-  const LookPtr& look = debugger_.values();
-  std::optional<std::size_t> pixel;
-  if (look && debugger_.pixel() && debugger_.pixel()->x < look->threads.width &&
-      debugger_.pixel()->y < look->threads.height)
-    pixel = static_cast<std::size_t>(debugger_.pixel()->y) * static_cast<std::size_t>(look->threads.width) +
-            static_cast<std::size_t>(debugger_.pixel()->x);
-  histogram_->show(look, target.variable, target.component, pixel);
+  histogram_->show(debugger_.values(), target.variable, target.component, debugger_.pickedIndex());
 }
 
 void VariablesPanel::showMenu(const QPoint& position) {

@@ -38,6 +38,8 @@ const QMap<QString, QString>& drawings() {
        R"(<path d="M5 7.500A6 6 0 1 1 4 11" stroke="A"/><path d="M4.500 3.500v4.500h4.500" stroke="A"/>)"},
       {"list",
        R"(<path d="M7 5.500h10M7 10h10M7 14.500h10" stroke="I"/><path d="M3.500 5.500h.1M3.500 10h.1M3.500 14.500h.1" stroke="A" stroke-width="2.200"/>)"},
+      {"pictures",
+       R"(<rect x="2.500" y="4" width="15" height="12" rx="1" stroke="I"/><path d="M3 14l4.500-5 3.500 4 2-2 4 4" stroke="A"/><circle cx="13" cy="7.500" r="1.200" stroke="A"/>)"},
       {"fit",
        R"(<path d="M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4" stroke="I"/><rect x="7" y="7" width="6" height="6" stroke="A"/>)"},
       {"copy",

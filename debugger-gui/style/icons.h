@@ -7,8 +7,8 @@
 namespace shadestep::gui {
 
 // "start", "stop", "pause", "run", "run-back", "restart", "over", "into", "out", "back", "next-draw",
-// "next-frame", "next-iteration", "leave-loop", "list", "fit", "copy", "save", "open", "add", "remove",
-// "check", "differs", "unknown", "app"; an empty icon for others.
+// "pictures", "next-frame", "next-iteration", "leave-loop", "list", "fit", "copy", "save", "open", "add",
+// "remove", "check", "differs", "unknown", "app"; an empty icon for others.
 QIcon icon(const QString& name);
 
 }  // namespace shadestep::gui

@@ -21,7 +21,7 @@ QString number(double value) {
 }  // namespace
 
 Histogram::Histogram(QWidget* parent) : QWidget(parent) {
-  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
   setAccessibleName(tr("Distribution over all threads"));
 }
 

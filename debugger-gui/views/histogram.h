@@ -15,7 +15,7 @@ class Histogram : public QWidget {
   explicit Histogram(QWidget* parent = nullptr);
   // `component` of the named value; the picked pixel is marked.
   void show(const LookPtr&, const QString& name, int component, std::optional<std::size_t> pixel);
-  QSize sizeHint() const override { return {220, 84}; }
+  QSize sizeHint() const override { return {220, 92}; }
   QSize minimumSizeHint() const override { return {120, 60}; }
 
  protected:

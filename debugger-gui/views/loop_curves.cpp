@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "debugger-gui/style/theme.h"
+#include "profiler/pictures/colors.h"
 #include "profiler/pictures/ticks.h"
 #include "session/text.h"
 
@@ -16,6 +17,12 @@ namespace {
 
 std::uint64_t at(const std::vector<std::uint64_t>& counts, std::size_t i) {
   return i < counts.size() ? counts[i] : 0;
+}
+
+QColor colorOfEarlier(std::size_t i) {
+  const profiler::Color color = profiler::categoricalColor(static_cast<int>(i) + 2);
+  return QColor::fromRgbF(static_cast<float>(color.r), static_cast<float>(color.g),
+                          static_cast<float>(color.b));
 }
 
 QString grouped(std::uint64_t number) {
@@ -30,7 +37,7 @@ LoopCurves::LoopCurves(QWidget* parent) : QWidget(parent) {
   setAccessibleName(tr("Threads per iteration"));
 }
 
-void LoopCurves::show(std::optional<LoopCurve> now, std::optional<LoopCurve> before) {
+void LoopCurves::show(std::optional<LoopCurve> now, std::vector<LoopCurve> before) {
   now_ = std::move(now);
   before_ = std::move(before);
   update();
@@ -41,7 +48,9 @@ QRectF LoopCurves::plot() const {
 }
 
 std::size_t LoopCurves::iterations() const {
-  return std::max(now_ ? now_->active.size() : 0, before_ ? before_->active.size() : 0);
+  std::size_t most = now_ ? now_->active.size() : 0;
+  for (const LoopCurve& curve : before_) most = std::max(most, curve.active.size());
+  return most;
 }
 
 void LoopCurves::paintEvent(QPaintEvent*) {
@@ -60,8 +69,11 @@ void LoopCurves::paintEvent(QPaintEvent*) {
   }
   const QRectF area = plot();
   std::uint64_t most = 1;
-  for (const auto* curve : {&now_, &before_})
-    if (*curve) most = std::max(most, *std::max_element((*curve)->active.begin(), (*curve)->active.end()));
+  const auto include = [&](const LoopCurve& curve) {
+    for (const std::uint64_t threads : curve.active) most = std::max(most, threads);
+  };
+  if (now_) include(*now_);
+  for (const LoopCurve& curve : before_) include(curve);
   const auto x = [&](double i) {
     return area.left() + area.width() * i / static_cast<double>(std::max<std::size_t>(count, 2) - 1);
   };
@@ -100,11 +112,13 @@ void LoopCurves::paintEvent(QPaintEvent*) {
             QRectF(x(static_cast<double>(i)) - bar / 2, y(threads), bar, area.bottom() - y(threads)), left);
     }
   };
-  QColor pale = theme().faint;
-  pale.setAlpha(90);
   QColor leaving = theme().left;
   leaving.setAlpha(190);
-  if (before_) curves(*before_, theme().faint, pale, true);
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    QColor pale = colorOfEarlier(i);
+    pale.setAlpha(90);
+    curves(before_[i], colorOfEarlier(i), pale, true);
+  }
   if (now_) curves(*now_, theme().accent, leaving, false);
   painter.setPen(theme().text);
   const auto key = [&](double left, const QColor& color, const QString& text) {
@@ -114,7 +128,7 @@ void LoopCurves::paintEvent(QPaintEvent*) {
   };
   double next = key(area.left(), theme().accent, tr("active threads"));
   next = key(next, theme().left, tr("leaving"));
-  if (before_) key(next, theme().faint, before_->name);
+  for (std::size_t i = 0; i < before_.size(); ++i) next = key(next, colorOfEarlier(i), before_[i].name);
   painter.setPen(theme().faint);
   painter.drawLine(area.bottomLeft(), area.bottomRight());
 }
@@ -127,9 +141,9 @@ void LoopCurves::mouseMoveEvent(QMouseEvent* event) {
   const auto i = static_cast<std::size_t>(std::lround(share * static_cast<double>(count - 1)));
   QString text = tr("iteration %1").arg(i);
   if (now_) text += tr("\n%1 active, %2 leave").arg(grouped(at(now_->active, i)), grouped(at(now_->left, i)));
-  if (before_)
+  for (const LoopCurve& curve : before_)
     text += tr("\n%1: %2 active, %3 leave")
-                .arg(before_->name, grouped(at(before_->active, i)), grouped(at(before_->left, i)));
+                .arg(curve.name, grouped(at(curve.active, i)), grouped(at(curve.left, i)));
   QToolTip::showText(event->globalPosition().toPoint(), text, this);
 }
 

@@ -1,4 +1,4 @@
-// Active and leaving threads per iteration of a loop, and those of an earlier run beneath them (thesis
+// Active and leaving threads per iteration of a loop, and those of earlier runs beneath them (thesis
 // fig. 7.8).
 #pragma once
 
@@ -18,7 +18,7 @@ class LoopCurves : public QWidget {
   Q_OBJECT
  public:
   explicit LoopCurves(QWidget* parent = nullptr);
-  void show(std::optional<LoopCurve> now, std::optional<LoopCurve> before);
+  void show(std::optional<LoopCurve> now, std::vector<LoopCurve> before);
   QSize sizeHint() const override { return {420, 180}; }
 
  protected:
@@ -29,7 +29,8 @@ class LoopCurves : public QWidget {
   QRectF plot() const;
   std::size_t iterations() const;
 
-  std::optional<LoopCurve> now_, before_;
+  std::optional<LoopCurve> now_;
+  std::vector<LoopCurve> before_;
 };
 
 }  // namespace shadestep::gui

@@ -56,6 +56,7 @@ void PictureView::setPicture(const PicturePtr& picture) {
   render();
   if (!same_size || fitted_) fit();
   update();
+  Q_EMIT shown();
 }
 
 void PictureView::setMapping(const Mapping& mapping) {
@@ -63,6 +64,7 @@ void PictureView::setMapping(const Mapping& mapping) {
   findRange();
   render();
   update();
+  Q_EMIT shown();
 }
 
 void PictureView::setPicked(std::optional<QPoint> pixel) {
@@ -229,7 +231,7 @@ void PictureView::paintValues(QPainter& painter, const QRect& pixels) {
       const bool is_dark = qGray(background.rgb()) < 128;
       painter.setPen(is_dark ? Qt::white : Qt::black);
       const QRectF cell(frame().left() + x * scale_, frame().top() + row * scale_, scale_, scale_);
-      QStringList texts = picture_->texts(p);
+      QStringList texts = picture_->texts(picture_->thread(p));
       for (QString& one : texts)
         one = painter.fontMetrics().elidedText(one, Qt::ElideRight, static_cast<int>(scale_) - 3);
       painter.drawText(cell, Qt::AlignCenter, texts.join('\n'));
@@ -258,12 +260,15 @@ QPointF PictureView::positionOf(int x, int y) const {
 QString PictureView::describe(int x, int y) const {
   if (!inside({x, y})) return {};
   const std::size_t p = picture_->index(x, y);
-  const QString where = QString("%1, %2").arg(x).arg(y);
+  const std::size_t thread = picture_->thread(p);
+  const QString where = picture_->who && picture_->cells[p] != Picture::Cell::none
+                            ? picture_->who(thread)
+                            : QString("%1, %2").arg(x).arg(y);
   if (picture_->cells[p] == Picture::Cell::none)
-    return tr("%1: no thread of the draw is visible here").arg(where);
+    return picture_->who ? QString() : tr("%1: no thread of the draw is visible here").arg(where);
   if (picture_->cells[p] == Picture::Cell::not_reached)
     return tr("%1: its thread does not get here").arg(where);
-  return where + ":  " + picture_->texts(p).join("   ");
+  return where + ":  " + picture_->texts(thread).join("  ");
 }
 
 void PictureView::fit() {

@@ -44,6 +44,7 @@ class PictureView : public QWidget {
   void picked(int x, int y);
   void hovered(int x, int y);  // -1, -1: no pixel
   void mappingChanged();
+  void shown();  // another picture, or the same one mapped differently
 
  protected:
   void paintEvent(QPaintEvent*) override;

@@ -54,6 +54,61 @@ std::shared_ptr<Picture> sized(int width, int height, int components) {
   return picture;
 }
 
+// Where the threads lie.
+struct Grid {
+  static constexpr std::size_t kNobody = ~std::size_t{0};
+
+  int width = 0, height = 0;
+  std::vector<std::size_t> thread;  // on each pixel; empty: the pixel's index is its thread's
+};
+
+Grid gridOf(const session::ThreadValues& threads) {
+  if (threads.identity.empty()) return {threads.width, threads.height, {}};
+  const std::size_t count = threads.marks.size();
+  Grid grid;
+  std::vector<std::size_t> pixels(count);
+  if (threads.identity.size() >= 3 && threads.identity[0].name == "x") {
+    const auto number = [&](std::size_t axis, std::size_t i) {
+      return static_cast<std::size_t>(*threads.identity[axis].at(i));
+    };
+    std::size_t most[3] = {0, 0, 0};
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis) most[axis] = std::max(most[axis], number(axis, i));
+    grid.width = static_cast<int>(most[0] + 1);
+    grid.height = static_cast<int>((most[1] + 1) * (most[2] + 1));
+    for (std::size_t i = 0; i < count; ++i)
+      pixels[i] = number(0, i) + (most[0] + 1) * (number(1, i) + (most[1] + 1) * number(2, i));
+  } else {
+    grid.width = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+    const std::size_t width = static_cast<std::size_t>(std::max(grid.width, 1));
+    grid.height = static_cast<int>((count + width - 1) / width);
+    // The first one at the upper left; rows count from below.
+    for (std::size_t i = 0; i < count; ++i)
+      pixels[i] = (static_cast<std::size_t>(grid.height) - 1 - i / width) * width + i % width;
+  }
+  grid.thread.assign(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
+                     Grid::kNobody);
+  for (std::size_t i = 0; i < count; ++i) grid.thread[pixels[i]] = i;
+  return grid;
+}
+
+// A picture over the threads, so far empty: who is where, and who is at the place looked at.
+std::shared_ptr<Picture> overThreads(const LookPtr& look, int components) {
+  const session::ThreadValues& threads = look->threads;
+  Grid grid = gridOf(threads);
+  const auto picture = sized(grid.width, grid.height, components);
+  for (std::size_t p = 0; p < picture->cells.size(); ++p) {
+    const std::size_t thread = grid.thread.empty() ? p : grid.thread[p];
+    if (thread != Grid::kNobody) picture->cells[p] = cellOf(threads.marks[thread]);
+  }
+  picture->threads = std::move(grid.thread);
+  if (picture->threads.empty()) return picture;
+  picture->name = [look](std::size_t thread) { return nameOf(look->threads, thread); };
+  picture->who = [look](std::size_t thread) { return textOf(nameOf(look->threads, thread)); };
+  picture->find = [look](const Picked& picked) { return picked.in(look->threads); };
+  return picture;
+}
+
 QRgb rgb(const profiler::Color& color) {
   return qRgb(static_cast<int>(std::lround(255 * color.r)), static_cast<int>(std::lround(255 * color.g)),
               static_cast<int>(std::lround(255 * color.b)));
@@ -89,17 +144,16 @@ PicturePtr pictureOfValue(const LookPtr& look, const QString& name) {
   const Components components(found->type);
   const std::size_t shown = std::min<std::size_t>(components.list.size(), 4);
   if (shown == 0) return nullptr;
-  const auto picture = sized(threads.width, threads.height, static_cast<int>(shown));
+  const auto picture = overThreads(look, static_cast<int>(shown));
   for (std::size_t p = 0; p < picture->cells.size(); ++p) {
-    picture->cells[p] = cellOf(threads.marks[p]);
     if (picture->cells[p] != Picture::Cell::reached) continue;
     for (std::size_t c = 0; c < shown; ++c)
-      picture->values[p * shown + c] = components.number(c, found->at(p));
+      picture->values[p * shown + c] = components.number(c, found->at(picture->thread(p)));
   }
   picture->title = name;
   const auto which = static_cast<std::size_t>(found - threads.values.begin());
-  picture->texts = [look, which, components, shown](std::size_t p) {
-    return components.texts(look->threads.values[which].at(p), shown);
+  picture->texts = [look, which, components, shown](std::size_t thread) {
+    return components.texts(look->threads.values[which].at(thread), shown);
   };
   return picture;
 }
@@ -114,27 +168,28 @@ QRgb colorOfSide(const Place& place, std::size_t side) {
 // Thesis fig. 7.5: true green, false red, and orange the threads that have left the loop before.
 PicturePtr pictureOfOutcome(const Place& place, const LookPtr& look) {
   if (!place.ways || place.ways->empty() || !look) return nullptr;
-  const session::ThreadValues& threads = look->threads;
-  const auto picture = sized(threads.width, threads.height, 1);
-  if (place.ways->front().mask.size() != picture->cells.size()) return nullptr;
+  const std::size_t threads = look->threads.marks.size();
+  if (place.ways->front().mask.size() != threads) return nullptr;
+  const auto picture = overThreads(look, 1);
   picture->colors.assign(picture->cells.size(), theme().no_thread.rgb());
-  std::vector<int> sides(picture->cells.size(), -1);
+  std::vector<int> sides(threads, -1);
   for (std::size_t p = 0; p < picture->cells.size(); ++p) {
-    picture->cells[p] = cellOf(threads.marks[p]);
+    const std::size_t thread = picture->thread(p);
+    if (thread == Grid::kNobody) continue;
     if (picture->cells[p] == Picture::Cell::not_reached && place.at_loop) {
       picture->cells[p] = Picture::Cell::reached;
       picture->colors[p] = theme().left.rgb();
     }
     for (std::size_t s = 0; s < place.ways->size(); ++s) {
-      if ((*place.ways)[s].mask[p] == 0) continue;
-      sides[p] = static_cast<int>(s);
+      if ((*place.ways)[s].mask[thread] == 0) continue;
+      sides[thread] = static_cast<int>(s);
       picture->colors[p] = colorOfSide(place, s);
     }
   }
   picture->title = QObject::tr("branch outcome");
-  picture->texts = [names = place.sides, sides = std::move(sides)](std::size_t p) {
-    return QStringList(sides[p] < 0 ? QObject::tr("left before")
-                                    : text(names[static_cast<std::size_t>(sides[p])].name));
+  picture->texts = [names = place.sides, sides = std::move(sides)](std::size_t thread) {
+    return QStringList(sides[thread] < 0 ? QObject::tr("left before")
+                                         : text(names[static_cast<std::size_t>(sides[thread])].name));
   };
   return picture;
 }
@@ -142,10 +197,16 @@ PicturePtr pictureOfOutcome(const Place& place, const LookPtr& look) {
 PicturePtr pictureOfIterations(const LoopsPtr& loops, int loop) {
   if (!loops || loop < 0 || loop >= static_cast<int>(loops->loops.size())) return nullptr;
   const session::LoopReport& report = loops->loops[static_cast<std::size_t>(loop)];
-  const auto picture = sized(loops->width, loops->height, 1);
+  const auto who = std::make_shared<Look>();
+  who->threads.width = loops->width;
+  who->threads.height = loops->height;
+  who->threads.marks = loops->marks;
+  who->threads.identity = loops->identity;
+  const auto picture = overThreads(who, 1);
   for (std::size_t p = 0; p < picture->cells.size(); ++p) {
-    picture->cells[p] = loops->marks[p] != 0 ? Picture::Cell::reached : Picture::Cell::none;
-    picture->values[p] = static_cast<float>(report.iterations[p]);
+    if (picture->cells[p] == Picture::Cell::none) continue;
+    picture->cells[p] = Picture::Cell::reached;
+    picture->values[p] = static_cast<float>(report.iterations[picture->thread(p)]);
   }
   picture->scale = Picture::Scale::cost;
   picture->title = QObject::tr("iterations of the loop at line %1").arg(report.line);
@@ -166,6 +227,16 @@ PicturePtr pictureOfCost(const ProfilePtr& profile) {
   }
   picture->scale = Picture::Scale::cost;
   picture->title = QObject::tr("cost (%1)").arg(text(profile->profile.unit));
+  if (const profiler::ThreadList& threads = profile->profile.threads; !threads.names.empty()) {
+    picture->name = [profile](std::size_t thread) {
+      const profiler::ThreadList& all = profile->profile.threads;
+      session::ThreadName name;
+      for (std::size_t i = 0; i < all.names.size() && thread < all.numbers.size(); ++i)
+        name.emplace_back(all.names[i], all.numbers[thread][i]);
+      return name;
+    };
+    picture->who = [name = picture->name](std::size_t thread) { return textOf(name(thread)); };
+  }
   picture->texts = [profile](std::size_t p) {
     QString line = text(profiler::readable(profile->profile.map.cost[p]) + " " + profile->profile.unit);
     if (p < profile->profile.uncertainty.size() && profile->profile.uncertainty[p] > 0)
@@ -193,6 +264,27 @@ PicturePtr pictureOfDifference(const ProfilePtr& profile) {
     return QStringList(
         text(profiler::readable(profile->comparison->difference[p])) +
         (profile->comparison->significant[p] != 0 ? QString() : QObject::tr(" (within the noise)")));
+  };
+  return picture;
+}
+
+PicturePtr pictureOfTexture(const TexturePtr& texture) {
+  if (!texture) return nullptr;
+  const auto picture = sized(texture->width, texture->height, 4);
+  const Components components(texture->type);
+  for (std::size_t p = 0; p < picture->cells.size(); ++p) {
+    for (std::size_t c = 0; c < 4; ++c)
+      picture->values[p * 4 + c] = components.number(c, &texture->words[p * 4]);
+    picture->cells[p] = Picture::Cell::reached;
+  }
+  picture->title = text(texture->uniform);
+  picture->who = [texture](std::size_t p) {
+    const auto width = static_cast<std::size_t>(texture->width);
+    const auto stride = static_cast<std::size_t>(texture->stride);
+    return QObject::tr("texel %1, %2").arg(stride * (p % width)).arg(stride * (p / width));
+  };
+  picture->texts = [texture, components](std::size_t p) {
+    return components.texts(&texture->words[p * 4], 4);
   };
   return picture;
 }

@@ -82,55 +82,72 @@ void SourceView::applyTheme() {
   SendScintilla(SCI_STYLESETSIZE, kCostStyle, static_cast<long>(monospaced().pointSizeF() - 1));
 }
 
-void SourceView::setSource(const StageSource& source) {
-  if (source.lines == source_.lines && source.stage == source_.stage) {
-    source_ = source;
-    return;
-  }
+void SourceView::setSource(const StageSource& source, int first, int last) {
+  const bool same =
+      source.lines == source_.lines && source.stage == source_.stage && first == first_ && last == last_;
   source_ = source;
+  if (same) return;
+  first_ = first;
+  last_ = last;
   QStringList lines;
-  for (const std::string& line : source.lines) lines.push_back(QString::fromStdString(line));
+  for (int line = first; line <= last; ++line)
+    lines.push_back(QString::fromStdString(source.lines[static_cast<std::size_t>(line) - 1]));
   setText(lines.join('\n'));
-  clearAnnotations();
-  for (const frontend::IncludedString& string : source.included)
-    annotate(string.first_line - 2, tr("included string %1").arg(QString::fromStdString(string.name)),
-             kCostStyle);
-  setAnnotationDisplay(AnnotationStandard);
-  setMarginWidth(kNumbers, QString("0%1").arg(lines.size()));
-  clearMarginText();
-  setMarginWidth(kCosts, 0);
+  // Scintilla numbers its own lines only: those of an included string stand in the margin of texts.
+  setMarginWidth(kNumbers, QString("0%1").arg(last));
+  if (first > 1) setMarginWidth(kNumbers, 0);
+  writeMargin({});
   current_ = 0;
 }
 
 void SourceView::setCurrent(int line, bool condition) {
   for (const int marker : {kCurrentLine, kConditionLine, kArrow}) markerDeleteAll(marker);
-  current_ = line;
+  current_ = has(line) ? line : 0;
   condition_ = condition;
-  if (line < 1) return;
-  markerAdd(line - 1, condition ? kConditionLine : kCurrentLine);
-  markerAdd(line - 1, kArrow);
-  setCursorPosition(line - 1, 0);
+  if (current_ == 0) return;
+  markerAdd(line - first_, condition ? kConditionLine : kCurrentLine);
+  markerAdd(line - first_, kArrow);
+  setCursorPosition(line - first_, 0);
   // Some lines of context stay in sight.
-  const long first = SendScintilla(SCI_GETFIRSTVISIBLELINE);
+  const long top = SendScintilla(SCI_GETFIRSTVISIBLELINE);
   const long shown = SendScintilla(SCI_LINESONSCREEN);
   constexpr long kContext = 3;
-  const long at = SendScintilla(SCI_VISIBLEFROMDOCLINE, static_cast<unsigned long>(line - 1));
-  if (at < first + kContext || at > first + shown - kContext)
+  const long at = SendScintilla(SCI_VISIBLEFROMDOCLINE, static_cast<unsigned long>(line - first_));
+  if (at < top + kContext || at > top + shown - kContext)
     setFirstVisibleLine(static_cast<int>(std::max(0L, at - shown / 2)));
+}
+
+int SourceView::cursorLine() const {
+  int row = 0;
+  int column = 0;
+  getCursorPosition(&row, &column);
+  return row + first_;
+}
+
+void SourceView::showLine(int line) {
+  if (has(line)) ensureLineVisible(line - first_);
 }
 
 void SourceView::setBreakpoints(const QMap<int, Breakpoint>& breakpoints) {
   for (const int marker : {kBreakpoint, kBreakpointOff, kBreakpointIf}) markerDeleteAll(marker);
   for (auto at = breakpoints.constBegin(); at != breakpoints.constEnd(); ++at) {
+    if (!has(at.key())) continue;
     const bool conditional = !at->condition.isEmpty() || at->ignore > 0;
-    markerAdd(at.key() - 1, !at->enabled ? kBreakpointOff : conditional ? kBreakpointIf : kBreakpoint);
+    markerAdd(at.key() - first_, !at->enabled ? kBreakpointOff : conditional ? kBreakpointIf : kBreakpoint);
   }
 }
 
 void SourceView::setCosts(const std::vector<profiler::LineCost>& costs) {
+  writeMargin(costs);
+}
+
+void SourceView::writeMargin(const std::vector<profiler::LineCost>& costs) {
   clearMarginText();
-  int widest = 0;
+  QMap<int, QString> texts;
+  if (first_ > 1)
+    for (int line = first_; line <= last_; ++line) texts[line] = QString::number(line);
   for (const profiler::LineCost& cost : costs) {
+    if (!has(cost.line)) continue;
     QString text = QString::fromStdString(profiler::readable(static_cast<double>(cost.hits), 3));
     if (cost.hits >= 1'000'000) {
       text = QString::number(static_cast<double>(cost.hits) / 1e6, 'f', 1) + "M";
@@ -138,16 +155,30 @@ void SourceView::setCosts(const std::vector<profiler::LineCost>& costs) {
       text = QString::number(static_cast<double>(cost.hits) / 1e3, 'f', 0) + "k";
     }
     if (cost.share) text += QString(" %1%").arg(100 * *cost.share, 5, 'f', 1);
-    setMarginText(cost.line - 1, " " + text + " ", kCostStyle);
-    widest = std::max(widest, static_cast<int>(text.size()));
+    texts[cost.line] = (texts.value(cost.line) + "  " + text).trimmed();
   }
-  setMarginWidth(kCosts, costs.empty() ? QString() : QString(widest + 2, '0'));
-  if (costs.empty()) setMarginWidth(kCosts, 0);
+  qsizetype widest = 0;
+  for (auto at = texts.constBegin(); at != texts.constEnd(); ++at) {
+    setMarginText(at.key() - first_, " " + at.value() + " ", kCostStyle);
+    widest = std::max(widest, at.value().size());
+  }
+  setMarginWidth(kCosts, QString(widest + 2, '0'));
+  if (texts.isEmpty()) setMarginWidth(kCosts, 0);
 }
 
-QString SourceView::expressionAt(int line, int column) const {
+// Where a name is defined as a macro, that line: what stands at its use is the macro's text.
+QString SourceView::macroAt(const QString& name) const {
+  const QRegularExpression definition(
+      QString(R"(^\s*#\s*define\s+%1\b(.*)$)").arg(QRegularExpression::escape(name)));
+  for (const std::string& line : source_.lines)
+    if (const auto match = definition.match(QString::fromStdString(line)); match.hasMatch())
+      return tr("macro <b>%1</b>&nbsp; %2").arg(name, match.captured(1).trimmed().toHtmlEscaped());
+  return {};
+}
+
+QString SourceView::expressionAt(int row, int column) const {
   static const QRegularExpression kPath(R"([A-Za-z_]\w*(?:\[\d+\]|\.[A-Za-z_]\w*)*)");
-  const QString text = this->text(line);
+  const QString text = this->text(row);
   auto matches = kPath.globalMatch(text);
   while (matches.hasNext()) {
     const QRegularExpressionMatch match = matches.next();
@@ -161,11 +192,11 @@ QString SourceView::expressionAt(int line, int column) const {
   return {};
 }
 
-void SourceView::onMarginClicked(int, int line, Qt::KeyboardModifiers modifiers) {
+void SourceView::onMarginClicked(int, int row, Qt::KeyboardModifiers modifiers) {
   if ((modifiers & Qt::ControlModifier) != 0) {
-    Q_EMIT breakpointEdited(line + 1);
+    Q_EMIT breakpointEdited(row + first_);
   } else {
-    Q_EMIT breakpointToggled(line + 1);
+    Q_EMIT breakpointToggled(row + first_);
   }
 }
 
@@ -176,22 +207,23 @@ void SourceView::showValue(int position, int x, int y) {
   lineIndexFromPosition(position, &line, &column);
   const QString expression = expressionAt(line, column);
   if (expression.isEmpty()) return;
-  const QString text = describe_(expression);
+  QString text = describe_(expression);
+  if (text.isEmpty()) text = macroAt(expression);
   if (!text.isEmpty()) QToolTip::showText(viewport()->mapToGlobal(QPoint(x, y)), text, this);
 }
 
 void SourceView::contextMenuEvent(QContextMenuEvent* event) {
   const int position = static_cast<int>(SendScintilla(
       SCI_POSITIONFROMPOINT, static_cast<unsigned long>(event->x()), static_cast<long>(event->y())));
-  int line = 0;
+  int row = 0;
   int column = 0;
-  lineIndexFromPosition(position, &line, &column);
-  const QString expression = hasSelectedText() ? selectedText() : expressionAt(line, column);
+  lineIndexFromPosition(position, &row, &column);
+  const QString expression = hasSelectedText() ? selectedText() : expressionAt(row, column);
+  const int line = row + first_;
   QMenu menu(this);
-  menu.addAction(tr("Run to line %1").arg(line + 1), this, [this, line] { Q_EMIT runToLineAsked(line + 1); });
-  menu.addAction(tr("Breakpoint here"), this, [this, line] { Q_EMIT breakpointToggled(line + 1); });
-  menu.addAction(tr("Breakpoint with a condition..."), this,
-                 [this, line] { Q_EMIT breakpointEdited(line + 1); });
+  menu.addAction(tr("Run to line %1").arg(line), this, [this, line] { Q_EMIT runToLineAsked(line); });
+  menu.addAction(tr("Breakpoint here"), this, [this, line] { Q_EMIT breakpointToggled(line); });
+  menu.addAction(tr("Breakpoint with a condition..."), this, [this, line] { Q_EMIT breakpointEdited(line); });
   if (!expression.isEmpty()) {
     menu.addSeparator();
     menu.addAction(tr("Watch %1").arg(expression), this,

@@ -67,6 +67,34 @@ TEST(Draw, GoesToDrawsAndListsThem) {
   EXPECT_TRUE(window.debugger().stop()->restarted);
 }
 
+TEST(Draw, ListsDrawsWithWhatTheyLeaveAndCountsCalls) {
+  const Scratch scratch;
+  const std::string file = scratch.file("image");
+  ASSERT_EQ(scratch.run({binary("programs/several-draws"), file}).status, 0);
+  const std::string bytes = readFile(file);  // RGBA, 64 x 64, rows bottom up
+  Window window;
+  window.start({binary("programs/several-draws")});
+  window.debugger().listFrame(true);
+  window.settle();
+  ASSERT_EQ(window.debugger().program(), Debugger::Program::stopped) << window.lastMessage().toStdString();
+  const auto& draws = window.debugger().draws();
+  ASSERT_EQ(draws.size(), 3);
+  for (const gui::DrawEntry& draw : draws) EXPECT_FALSE(draw.thumbnail.isNull());
+  EXPECT_NE(draws[0].thumbnail, draws[2].thumbnail);
+  const QImage last = draws[2].thumbnail;
+  ASSERT_EQ(last.size(), QSize(64, 64));
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const auto* at = reinterpret_cast<const unsigned char*>(bytes.data()) + 4 * ((63 - y) * 64 + x);
+      ASSERT_EQ(last.pixel(x, y), qRgb(at[0], at[1], at[2])) << x << ", " << y;
+    }
+  // Behind the first draw the program sets the tint once more, and then the other program.
+  const auto& calls = window.debugger().listed().value(0).calls;
+  EXPECT_EQ(calls.at("glUniform4f"), 1U);
+  EXPECT_EQ(calls.at("glUseProgram"), 1U);
+  EXPECT_EQ(calls.count("glLinkProgram"), 0U);
+}
+
 TEST(Draw, SaysThatThereIsNoSuchDraw) {
   Window window;
   window.start(smallRaycaster(), 0, 7);
@@ -195,13 +223,27 @@ TEST(Draw, TakesTwoHundredRandomActions) {
     } else if (which == 31) {
       debugger.askLoops();
     } else if (which == 32) {
-      window->dock(QStringList({"run", "loops", "cost", "calls", "state", "variables"})[below(6)])->raise();
+      window->dock(QStringList({"run", "threads", "loops", "cost", "calls", "state", "variables"})[below(7)])
+          ->raise();
     } else if (which == 33) {
       debugger.cancel();
+    } else if (which == 34) {
+      debugger.selectStage(below(2) == 0 ? session::Stage::vertex : session::Stage::fragment);
+    } else if (which == 35) {
+      debugger.pick(session::ThreadName{{"vertex", below(40)}, {"instance", 0}});
+    } else if (which == 36) {
+      debugger.askOrigin(session::Stage::vertex);
+    } else if (which == 37) {
+      window->threads().showTab(static_cast<gui::ThreadsPanel::Tab>(below(2)));
+      window->threads().table().sortByColumn(below(4),
+                                             below(2) == 0 ? Qt::AscendingOrder : Qt::DescendingOrder);
+    } else if (which == 38) {
+      window->picture().showInSpace(below(2) == 0);
+      window->picture().landscape().turnTo(below(360), below(90));
     }
   };
   for (int i = 0; i < 200; ++i) {
-    act(below(34));
+    act(below(39));
     if (below(3) == 0) window.settle();  // else the next comes while this one is under way
     if (debugger.check() && debugger.check()->compared_at_all) {
       EXPECT_TRUE(debugger.check()->identical());

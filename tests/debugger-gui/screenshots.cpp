@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QStandardPaths>
+#include <algorithm>
 
 #include "debugger-gui/style/theme.h"
 #include "window.h"
@@ -30,11 +31,13 @@ void save(Window& window, const QString& directory, const QString& name) {
   if (!image.save(file, "PNG", 0)) qFatal("cannot write %s", qPrintable(file));
 }
 
-void takeAll(const QString& directory) {
+// From the start to the heat map, on the ray caster.
+void takeSession(const QString& directory) {
   Window window;
   window->resize(1280, 800);
   window.start(raycaster());
-  window.press("list");
+  window.debugger().listFrame(true);
+  window.settle();
   window.pick(140, 120);
   window.stepTo(40);
   window->variables().tree().setCurrentIndex(window.row("steps"));
@@ -49,16 +52,23 @@ void takeAll(const QString& directory) {
   window->variables().tree().setCurrentIndex(window.row("dst.a"));
   save(window, directory, "value");
 
-  window->dock("run")->raise();
-  window->picture().view().setScale(140);
+  window->picture().view().setScale(120);
   save(window, directory, "pixels");
   window->picture().view().fit();
 
   // The branch: who goes which way.
   for (int i = 0; i < 12 && window.debugger().place()->sides.empty(); ++i) window.press("over");
   window.debugger().show({gui::PictureSource::Kind::outcome, {}, 0});
-  window->dock("variables")->raise();
   save(window, directory, "branch");
+
+  // Where the picked pixel comes from.
+  window->dock("threads")->raise();
+  window.debugger().askOrigin(session::Stage::vertex);
+  window.settle();
+  window.press("over");
+  save(window, directory, "vertices");
+  window.debugger().selectStage(session::Stage::fragment);
+  window.settle();
 
   window->dock("loops")->raise();
   window.debugger().askLoops();
@@ -70,6 +80,9 @@ void takeAll(const QString& directory) {
   window.debugger().askProfile({"clock", 4, {}});
   window.settle();
   save(window, directory, "cost");
+  window->picture().showInSpace(true);
+  save(window, directory, "landscape");
+  window->picture().showInSpace(false);
 
   window->dock("calls")->raise();
   window.debugger().logCalls(true);
@@ -80,11 +93,44 @@ void takeAll(const QString& directory) {
 
   window.press("next-draw");
   window->setTheme(gui::ThemeChoice::dark);
-  window->dock("variables")->raise();
+  window->dock("run")->raise();
   window.debugger().setBreakpoint(kInLoop, gui::Breakpoint{true, "i == 40", 0});
   window.press("run");
   window.debugger().show({gui::PictureSource::Kind::value, "dst", 0});
   save(window, directory, "dark");
+  window->setTheme(gui::ThemeChoice::light);
+}
+
+// A geometry shader: marching cubes (thesis fig. 7.7).
+void takeGeometry(const QString& directory) {
+  Window window;
+  window->resize(1280, 800);
+  window.start({binary("marching-cubes"), "16"});
+  window->dock("threads")->raise();
+  window.debugger().selectStage(session::Stage::geometry);
+  window.settle();
+  // Where only those cells come that the surface cuts.
+  const auto& lines = window.debugger().source()->lines;
+  const auto cut = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.find("for (int k") != std::string::npos;
+  });
+  window.debugger().toLine(static_cast<int>(cut - lines.begin()) + 1);
+  window.settle();
+  window->threads().showTab(gui::ThreadsPanel::kScatter);
+  window->threads().plot("cell[0].x", "cell[0].y", "cell[0].z", "inside");
+  save(window, directory, "scatter");
+  window->threads().showTab(gui::ThreadsPanel::kMade);
+  window.settle();
+  QTreeView& tree = window->threads().tree();
+  const QModelIndex primitive = tree.model()->index(1, 0);
+  for (QModelIndex index = primitive; index.isValid(); index = tree.model()->index(0, 0, index))
+    tree.expand(index);
+  save(window, directory, "geometry");
+}
+
+void takeAll(const QString& directory) {
+  takeSession(directory);
+  takeGeometry(directory);
 }
 
 }  // namespace

@@ -107,5 +107,24 @@ TEST(Session, ShowsAVariableAsAPicture) {
       << pixel.toStdString() << " / " << row.toStdString();
 }
 
+TEST(Session, AnIncludedStringHasATabOfItsOwn) {
+  Window window;
+  window.start({binary("programs/included-strings")});
+  ASSERT_EQ(window.debugger().program(), Debugger::Program::stopped) << window.lastMessage().toStdString();
+  const gui::SourceView* own = window->source();
+  ASSERT_NE(own, nullptr);
+  const QString text = own->text();
+  ASSERT_TRUE(text.contains("void main")) << text.toStdString();
+  EXPECT_FALSE(text.contains("float height(vec2 p)"));
+  for (int i = 0; i < 20 && window.debugger().place()->stack.size() < 3; ++i) window.press("into");
+  ASSERT_EQ(window.debugger().place()->stack.size(), 3U);  // main, tone, height
+  const gui::SourceView* included = window->source();
+  EXPECT_NE(included, own);
+  EXPECT_TRUE(included->isVisible());
+  EXPECT_EQ(included->current(), window.debugger().place()->line);
+  EXPECT_EQ(own->current(), 0);
+  EXPECT_TRUE(included->text().contains("float height(vec2 p)")) << included->text().toStdString();
+}
+
 }  // namespace
 }  // namespace shadestep::test

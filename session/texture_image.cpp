@@ -1,0 +1,203 @@
+// The texels come by a fragment shader of ours that fetches them, drawn over a target of our own: the guest
+// reads textures back in this one way, whatever their format.
+#include "session/texture_image.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "instrumenter/accesses.h"
+
+namespace shadestep::session {
+namespace {
+
+using instrumenter::SamplerKind;
+
+constexpr int kWidest = 4096;
+
+struct Sampler {
+  std::string uniform, declared;  // "maps[1]", "sampler2D maps[4]"
+  std::string type;
+  SamplerKind kind;
+};
+
+std::vector<Sampler> samplersOf(const frontend::Shader& shader) {
+  std::vector<Sampler> samplers;
+  for (const frontend::Variable& variable : shader.variables) {
+    const auto kind = instrumenter::samplerKind(variable.type.opaque_name);
+    if (variable.type.basic != frontend::Basic::opaque || variable.storage != frontend::Storage::uniform ||
+        !kind)
+      continue;
+    const std::string declared = variable.type.opaque_name + " " + variable.name;
+    if (variable.type.array.empty()) {
+      samplers.push_back({variable.name, declared, variable.type.opaque_name, *kind});
+    } else if (variable.type.array.size() == 1) {
+      const int count = variable.type.array.front();
+      for (int i = 0; i < count; ++i)
+        samplers.push_back({variable.name + "[" + std::to_string(i) + "]",
+                            declared + "[" + std::to_string(count) + "]", variable.type.opaque_name, *kind});
+    }
+  }
+  return samplers;
+}
+
+std::uint32_t targetOf(const SamplerKind& kind) {
+  if (kind.rectangle) return 0x84F5;                   // GL_TEXTURE_RECTANGLE
+  if (kind.cube) return kind.array ? 0x9009 : 0x8513;  // GL_TEXTURE_CUBE_MAP[_ARRAY]
+  if (kind.buffer) return 0x8C2A;                      // GL_TEXTURE_BUFFER
+  if (kind.multisample) return kind.array ? 0x9102 : 0x9100;
+  if (kind.axes == 1) return kind.array ? 0x8C18 : 0x0DE0;  // GL_TEXTURE_1D[_ARRAY]
+  if (kind.axes == 2) return kind.array ? 0x8C1A : 0x0DE1;  // GL_TEXTURE_2D[_ARRAY]
+  return 0x806F;                                            // GL_TEXTURE_3D
+}
+
+[[noreturn]] void cannot(const std::string& reason) {
+  throw Error(Outcome::cannot_debug, "the texture cannot be shown: " + reason);
+}
+
+// At pixel p of the target, as `texel`: a vec4, ivec4 or uvec4.
+std::string fetch(const Sampler& sampler) {
+  const SamplerKind& kind = sampler.kind;
+  if (kind.cube) cannot("it is a cube map");
+  if (kind.buffer) cannot("it is a buffer");
+  if (kind.multisample) cannot("it is multisampled");
+  if (kind.shadow) cannot("its sampler compares");
+  if (kind.rectangle) return "texelFetch(" + sampler.uniform + ", p)";
+  const std::string coordinate = kind.axes == 1                 ? (kind.array ? "ivec2(p.x, p.y)" : "p.x")
+                                 : kind.axes == 3 || kind.array ? "ivec3(p, sd_place.y)"
+                                                                : "p";
+  return "texelFetch(" + sampler.uniform + ", " + coordinate + ", sd_place.x)";
+}
+
+std::string versionLine(Session& session) {
+  const DrawFacts& facts = session.facts();
+  const frontend::Shader& shader = session.shader();
+  if (shader.profile == "es" || facts.es) {
+    if (shader.version < 300) cannot("GLSL ES " + std::to_string(shader.version) + " has no texelFetch");
+    return "#version " + std::to_string(shader.version) + " es\n";
+  }
+  if (facts.major < 3) cannot("OpenGL " + std::to_string(facts.major) + " has no texelFetch");
+  if (shader.version < 130) return "#version 130\n";
+  return "#version " + std::to_string(shader.version) + (shader.profile.empty() ? "" : " " + shader.profile) +
+         "\n";
+}
+
+// Whole numbers go through floats half by half: every one of them is exact.
+std::string fragmentText(Session& session, const Sampler& sampler) {
+  const bool whole = sampler.type[0] == 'i' || sampler.type[0] == 'u';
+  const std::string texel = fetch(sampler);
+  std::string text = versionLine(session);
+  if (text.find(" es") != std::string::npos)
+    text += "precision highp float;\nprecision highp int;\nprecision highp " + sampler.type + ";\n";
+  else if (session.shader().version < 140 && (sampler.kind.rectangle))
+    text += "#extension GL_ARB_texture_rectangle : enable\n";
+  text += "uniform " + sampler.declared + ";\nuniform ivec4 sd_place;\nout vec4 sd_texel;\nvoid main() {\n" +
+          "  ivec2 p = ivec2(gl_FragCoord.xy) * sd_place.z;\n";
+  if (whole)
+    text += "  uvec4 whole = uvec4(" + texel + ");\n" +
+            "  sd_texel = vec4(sd_place.w == 0 ? whole & 0xffffu : whole >> 16u);\n}\n";
+  else
+    text += "  sd_texel = " + texel + ";\n}\n";
+  return text;
+}
+
+std::string vertexText(Session& session) {
+  return versionLine(session) +
+         "void main() {\n"
+         "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+         "}\n";
+}
+
+class Fragments {
+ public:
+  explicit Fragments(Session& session) : session_(session), before_(session.stage()) {
+    session_.select(Stage::fragment);
+  }
+  Fragments(const Fragments&) = delete;
+  Fragments& operator=(const Fragments&) = delete;
+  ~Fragments() { session_.select(before_); }
+
+ private:
+  Session& session_;
+  const Stage before_;
+};
+
+std::vector<SampledTexture> factsOf(Session& session, const std::vector<Sampler>& samplers) {
+  std::vector<SamplerName> names;
+  for (const Sampler& sampler : samplers) names.push_back({sampler.uniform, targetOf(sampler.kind)});
+  return names.empty() ? std::vector<SampledTexture>() : session.textures(names);
+}
+
+}  // namespace
+
+std::vector<ShaderTexture> shaderTextures(Session& session) {
+  const Fragments meanwhile(session);
+  const std::vector<Sampler> samplers = samplersOf(session.shader());
+  std::vector<SampledTexture> facts = factsOf(session, samplers);
+  std::vector<ShaderTexture> textures;
+  for (std::size_t i = 0; i < facts.size(); ++i) textures.push_back({std::move(facts[i]), samplers[i].type});
+  return textures;
+}
+
+TextureImage textureImage(Session& session, const std::string& uniform, int level, int slice) {
+  const Fragments meanwhile(session);
+  session.requireCapturable();
+  std::vector<Sampler> samplers = samplersOf(session.shader());
+  std::erase_if(samplers, [&](const Sampler& one) { return one.uniform != uniform; });
+  if (samplers.empty()) throw Error(Outcome::nothing_matches, "the shader has no sampler '" + uniform + "'");
+  const Sampler& sampler = samplers.front();
+  const SampledTexture facts = factsOf(session, samplers).front();
+  if (facts.levels.empty()) cannot(facts.reason.empty() ? "it has no texels" : facts.reason);
+  const int last = facts.base_level + static_cast<int>(facts.levels.size()) - 1;
+  if (level < facts.base_level || level > last)
+    throw Error(Outcome::nothing_matches, "'" + uniform + "' has the levels " +
+                                              std::to_string(facts.base_level) + " to " +
+                                              std::to_string(last));
+  const SampledTexture::Size& size = facts.levels[static_cast<std::size_t>(level - facts.base_level)];
+  if (slice < 0 || slice >= std::max(size.depth, 1))
+    throw Error(Outcome::nothing_matches, "'" + uniform + "' has " + std::to_string(size.depth) +
+                                              " slices at level " + std::to_string(level));
+
+  TextureImage image;
+  image.uniform = uniform;
+  image.level = level;
+  image.slice = slice;
+  const int longest = std::max({size.width, size.height, 1});
+  image.stride = (longest + kWidest - 1) / kWidest;
+  image.width = (size.width + image.stride - 1) / image.stride;
+  image.height = (size.height + image.stride - 1) / image.stride;
+  image.type.rows = 4;
+  image.type.basic = sampler.type[0] == 'i'   ? frontend::Basic::int_
+                     : sampler.type[0] == 'u' ? frontend::Basic::uint_
+                                              : frontend::Basic::float_;
+  const bool whole = image.type.basic != frontend::Basic::float_;
+  image.words.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4, 0);
+  const Prepared program = session.prepareCovering(fragmentText(session, sampler), vertexText(session));
+  for (int half = 0; half < (whole ? 2 : 1); ++half) {
+    ExecuteOptions options;
+    options.compare = false;
+    options.read_outputs = true;
+    options.read_captures = false;
+    options.covering_size = std::max(image.width, image.height);
+    options.uniforms = {
+        {"sd_place",
+         0x8B55,  // GL_INT_VEC4
+         {static_cast<std::uint32_t>(level - facts.base_level), static_cast<std::uint32_t>(slice),
+          static_cast<std::uint32_t>(image.stride), static_cast<std::uint32_t>(half)}}};
+    const Execution execution = session.execute(program, options);
+    if (execution.outputs.empty()) cannot("the driver gives no texels back");
+    const std::vector<std::uint32_t>& drawn = execution.outputs.front().words;
+    const auto side = static_cast<std::size_t>(options.covering_size);
+    if (drawn.size() < side * side * 4) cannot("the driver gives too few texels back");
+    for (int y = 0; y < image.height; ++y) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(image.width) * 4; ++i) {
+        const std::uint32_t word = drawn[static_cast<std::size_t>(y) * side * 4 + i];
+        std::uint32_t& to =
+            image.words[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) * 4 + i];
+        to = whole ? to | (static_cast<std::uint32_t>(std::bit_cast<float>(word)) << (16 * half)) : word;
+      }
+    }
+  }
+  return image;
+}
+
+}  // namespace shadestep::session
