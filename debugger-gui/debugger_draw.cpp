@@ -7,7 +7,8 @@ void Debugger::askLoops() {
   if (program_ != Program::stopped) return;
   backend_.ask(
       tr("Counting iterations"), "loops", [](Debuggee& debuggee) { return debuggee.loops(); },
-      [this](const LoopsPtr& loops) {
+      [this, stage = stage()](const LoopsPtr& loops) {
+        if (stage != picked_.stage) return;  // another one has been chosen meanwhile
         loops_ = loops;
         Q_EMIT loopsChanged();
       });

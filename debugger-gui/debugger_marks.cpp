@@ -38,7 +38,8 @@ void Debugger::pick(std::optional<Pixel> pixel) {
   if (stage() == session::Stage::fragment) return setPicked({stage(), pixel, {}});
   picks_[session::Stage::fragment] = {session::Stage::fragment, pixel, {}};
   Q_EMIT pickedChanged();
-  if (pixel && source(session::Stage::fragment) != nullptr) askOrigin(stage());
+  const bool told = stage() == session::Stage::vertex || stage() == session::Stage::tess_control;
+  if (pixel && told && source(session::Stage::fragment) != nullptr) askOrigin(stage());
 }
 
 void Debugger::pick(const session::ThreadName& thread) {

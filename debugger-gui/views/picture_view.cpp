@@ -46,6 +46,9 @@ PictureView::PictureView(QWidget* parent) : QWidget(parent) {
   setFocusPolicy(Qt::StrongFocus);
   setCursor(Qt::CrossCursor);
   setAccessibleName(tr("Picture over all threads"));
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  smooth_later_.setSingleShot(true);
+  connect(&smooth_later_, &QTimer::timeout, this, qOverload<>(&QWidget::update));
 }
 
 void PictureView::setPicture(const PicturePtr& picture) {
@@ -118,7 +121,11 @@ void PictureView::findRange() {
 void PictureView::render() {
   image_ = QImage();
   if (!picture_) return;
-  image_ = QImage(picture_->width, picture_->height, QImage::Format_ARGB32_Premultiplied);
+  hatched_ = std::find(picture_->cells.begin(), picture_->cells.end(), Picture::Cell::not_reached) !=
+             picture_->cells.end();
+  // Without pixels to see the hatching through it is painted several times as fast.
+  image_ = QImage(picture_->width, picture_->height,
+                  hatched_ ? QImage::Format_ARGB32_Premultiplied : QImage::Format_RGB32);
   const auto count = static_cast<std::size_t>(picture_->components);
   const double span = mapping_.high - mapping_.low;
   const auto position = [&](float value) {
@@ -166,23 +173,18 @@ QRectF PictureView::frame() const {
 
 void PictureView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), theme().window);
   if (!picture_) {
+    painter.fillRect(rect(), theme().window);
     painter.setPen(theme().faint);
     painter.drawText(rect(), Qt::AlignCenter, nothing_);
     return;
   }
   const QRectF whole = frame();
   const QRectF visible = whole.intersected(QRectF(rect()));
+  const QRegion around = QRegion(rect()).subtracted(visible.toRect().adjusted(1, 1, -1, -1));
+  for (const QRect& part : around) painter.fillRect(part, theme().window);
   if (visible.isEmpty()) return;
-  QPixmap hatch(8, 8);
-  hatch.fill(theme().hatch_background);
-  {
-    QPainter lines(&hatch);
-    lines.setPen(QPen(theme().hatch_line, 1.4));
-    for (const int shift : {-8, 0, 8}) lines.drawLine(shift, 8, shift + 8, 0);
-  }
-  painter.fillRect(visible, QBrush(hatch));
+  if (hatched_) paintHatching(painter, visible);
 
   // Only what is seen is scaled; whole pixels, so that they stay squares.
   const QRect pixels =
@@ -192,7 +194,7 @@ void PictureView::paintEvent(QPaintEvent*) {
           .intersected(image_.rect());
   const QRectF target(whole.left() + pixels.left() * scale_, whole.top() + pixels.top() * scale_,
                       pixels.width() * scale_, pixels.height() * scale_);
-  painter.setRenderHint(QPainter::SmoothPixmapTransform, scale_ < 1);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, scale_ < 1 && !smooth_later_.isActive());
   painter.drawImage(target, image_, pixels);
   if (scale_ >= kGridFrom) {
     painter.setPen(QPen(QColor(128, 128, 128, 70), 1));
@@ -215,6 +217,17 @@ void PictureView::paintEvent(QPaintEvent*) {
     painter.setPen(QPen(Qt::white, 1));
     painter.drawRect(mark);
   }
+}
+
+void PictureView::paintHatching(QPainter& painter, const QRectF& where) const {
+  QPixmap hatch(8, 8);
+  hatch.fill(theme().hatch_background);
+  {
+    QPainter lines(&hatch);
+    lines.setPen(QPen(theme().hatch_line, 1.4));
+    for (const int shift : {-8, 0, 8}) lines.drawLine(shift, 8, shift + 8, 0);
+  }
+  painter.fillRect(where, QBrush(hatch));
 }
 
 void PictureView::paintValues(QPainter& painter, const QRect& pixels) {
@@ -292,6 +305,8 @@ void PictureView::zoomAround(const QPointF& position, double factor) {
   origin_ = position - (position - origin_) * (scale / scale_);
   scale_ = scale;
   fitted_ = false;
+  constexpr int kSmoothAfterMs = 150;
+  smooth_later_.start(kSmoothAfterMs);
   update();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QImage>
+#include <QTimer>
 #include <QWidget>
 #include <optional>
 
@@ -60,6 +61,7 @@ class PictureView : public QWidget {
   void findRange();
   void render();
   void zoomAround(const QPointF& position, double factor);
+  void paintHatching(QPainter&, const QRectF& where) const;
   void paintValues(QPainter&, const QRect& pixels);
   bool inside(const QPoint& pixel) const;
   QRectF frame() const;  // of the whole picture on the widget
@@ -71,6 +73,8 @@ class PictureView : public QWidget {
   QString nothing_;
   QPointF origin_;  // of the picture's upper left corner on the widget
   bool fitted_ = true;
+  bool hatched_ = false;  // some pixel's thread is not here
+  QTimer smooth_later_;   // while it runs, the picture is being enlarged: quick before smooth
   std::optional<QPoint> picked_;
   std::optional<QPointF> dragged_from_;
   bool dragged_ = false;

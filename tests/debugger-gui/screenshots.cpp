@@ -5,6 +5,7 @@
 #include <QStandardPaths>
 #include <algorithm>
 
+#include "debugger-gui/panels/state_panel.h"
 #include "debugger-gui/style/theme.h"
 #include "window.h"
 
@@ -92,6 +93,17 @@ void takeSession(const QString& directory) {
   save(window, directory, "calls");
 
   window.press("next-draw");
+  window->dock("state")->raise();
+  auto* state = window->dock("state")->findChild<gui::StatePanel*>();
+  state->showTab(gui::StatePanel::kTextures);
+  window.settle();
+  for (QTreeWidgetItem* item : state->textures().findItems("volume", Qt::MatchExactly))
+    QTest::mouseClick(state->textures().viewport(), Qt::LeftButton, {},
+                      state->textures().visualItemRect(item).center());
+  window.settle();
+  save(window, directory, "texture");
+  window.debugger().show({});
+
   window->setTheme(gui::ThemeChoice::dark);
   window->dock("run")->raise();
   window.debugger().setBreakpoint(kInLoop, gui::Breakpoint{true, "i == 40", 0});
