@@ -232,10 +232,16 @@ PicturePtr pictureOfCost(const ProfilePtr& profile) {
       const profiler::ThreadList& all = profile->profile.threads;
       session::ThreadName name;
       for (std::size_t i = 0; i < all.names.size() && thread < all.numbers.size(); ++i)
-        name.emplace_back(all.names[i], all.numbers[thread][i]);
+        if (all.types[i] == frontend::Basic::int_) name.emplace_back(all.names[i], all.numbers[thread][i]);
       return name;
     };
-    picture->who = [name = picture->name](std::size_t thread) { return textOf(name(thread)); };
+    picture->who = [profile](std::size_t thread) {
+      const profiler::ThreadList& all = profile->profile.threads;
+      QStringList parts;
+      for (std::size_t i = 0; i < all.names.size() && thread < all.numbers.size(); ++i)
+        parts.push_back(text(all.names[i] + " " + all.text(thread, i)));
+      return parts.join(", ");
+    };
   }
   picture->texts = [profile](std::size_t p) {
     QString line = text(profiler::readable(profile->profile.map.cost[p]) + " " + profile->profile.unit);
