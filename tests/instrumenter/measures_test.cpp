@@ -484,12 +484,11 @@ TEST(IsolationText, DropsWhatVariablesCannotHave) {
       "vec2a;vec3b[2];outvec4o;");
   holds("#version 330 core\nstruct S { vec2 a; };\nsmooth in S s; out vec4 o;\nvoid main() { o = s.a.xyxy; }",
         "structS{vec2a;};Ss;outvec4o;");
+  holds("#version 400 core\nin vec2 a; out vec4 o;\nvoid main() { o = interpolateAtCentroid(a).xyxy; }",
+        "o=sd_AtCentroid(a).xyxy;");
 }
 
 TEST(IsolationText, SaysWhatCannotBeIsolated) {
-  EXPECT_EQ(isolatedText("#version 400 core\nin vec2 a; out vec4 o;\n"
-                         "void main() { o = interpolateAtCentroid(a).xyxy; }"),
-            "The inputs cannot be replaced: 'interpolateAtCentroid' needs a real input.");
   EXPECT_EQ(isolatedText("#version 330 core\nuniform int i; in float gl_ClipDistance[2]; out vec4 o;\n"
                          "void main() { o = vec4(gl_ClipDistance[i]); }"),
             "The inputs cannot be replaced yet: gl_ClipDistance is used without a literal index.");
