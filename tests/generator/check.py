@@ -100,7 +100,7 @@ class Check:
 
     def verify(self) -> bool:
         result = self.folder / "verified.txt"
-        command = [str(self.tools.shadestep), "verify", "--json", "--continue", "--pixels", "3", "--", *self.draw, str(result)]
+        command = [str(self.tools.shadestep), "verify", "--json", "--stage", "fragment", "--continue", "--pixels", "3", "--", *self.draw, str(result)]
         result.unlink(missing_ok=True)
         status, out, err = run(command, self.tools.timeout)
         try:
