@@ -15,6 +15,7 @@ import scene
 import scopes
 from dialect import Dialect
 from interpret import Interpreter, Pixel, Undefined
+from stages import STAGES, selection, split_row
 from tree import Program, S
 
 
@@ -74,6 +75,7 @@ class Check:
     def run(self) -> Outcome:
         """Throws Undefined or scopes.Invalid if the program is none to check."""
         width, height = self.program.width, self.program.height
+        self.stage = [] if self.program.stage == "fragment" else ["--stage", self.program.stage]
         chosen = [(self.random.randrange(width), self.random.randrange(height)) for _ in range(2)]
         files = scene.write(self.program, self.dialect, self.folder)
         self.interpreter, self.pixels = interpret(self.program, set(chosen))
@@ -100,7 +102,7 @@ class Check:
 
     def verify(self) -> bool:
         result = self.folder / "verified.txt"
-        command = [str(self.tools.shadestep), "verify", "--json", "--stage", "fragment", "--continue", "--pixels", "3", "--", *self.draw, str(result)]
+        command = [str(self.tools.shadestep), "verify", "--json", "--stage", self.program.stage, "--continue", "--pixels", "3", "--", *self.draw, str(result)]
         result.unlink(missing_ok=True)
         status, out, err = run(command, self.tools.timeout)
         try:
@@ -134,7 +136,8 @@ class Check:
 
     def thread(self, x: int, y: int, name: str) -> bool:
         pixel = self.pixels[y * self.program.width + x]
-        command = [str(self.tools.shadestep), "debug", "--json", "--pixel", f"{x},{y}", "--", *self.draw]
+        thread = selection(self.program.stage, x, y)
+        command = [str(self.tools.shadestep), "debug", "--json", *self.stage, *thread, "--", *self.draw]
         recorded = self.recorded()
         if not recorded and (pixel.discarded or len(pixel.steps) > 60):
             return False  # one redraw a step; a fragment that is not visible cannot be followed
@@ -160,7 +163,7 @@ class Check:
 
     def recorded(self) -> bool:
         """Not where there are no storage buffers, nor where their extension makes a keyword of a name."""
-        words = set(re.findall(r"\w+", (self.folder / "shader.frag").read_text()))
+        words = set(re.findall(r"\w+", (self.folder / STAGES[self.program.stage].file).read_text()))
         names = {"buffer"} if self.dialect.version < 430 else set()
         return not (self.dialect.es and self.dialect.version < 310) and not (
             not self.dialect.es and words & (names | ({"layout"} if self.dialect.version < 140 else set())))
@@ -198,14 +201,14 @@ class Check:
         if not names or not truth:
             return False
         values = self.folder / "values.csv"
-        command = [str(self.tools.shadestep), "debug", "--at", f"{s.line}:{s.column}", *(["--after"] if after else []),
+        command = [str(self.tools.shadestep), "debug", "--at", f"{s.line}:{s.column}", *(["--after"] if after else []), *self.stage,
                    "--print", ",".join(names), "--csv", str(values.resolve()), "--json", "--", *self.draw]
         status, out, err = run(command, self.tools.timeout)
         if status != 0:
             return bool(self.fail("place", [f"status {status}: {err.strip()[-600:]}"], command))
         with open(values) as file:
             rows = list(csv.reader(file))[1:]
-        shown = {f"{row[0]},{row[1]}": row[2:] for row in rows}
+        shown = dict(split_row(self.program.stage, self.dialect, row) for row in rows)
         problems = []
         # What depends on a uniform that the driver dropped is said to be uncertain.
         dropped = json.loads(out)["check"].get("dropped") or ""
@@ -218,7 +221,7 @@ class Check:
             right = [one for name in names for one in truth[thread][name][1]]
             got = [number(cell) for cell in cells]
             if not uncertain and not compare.same(right, got):
-                problems.append(f"pixel {thread}: {', '.join(names)} = {cells}, must be {right}")
+                problems.append(f"thread {thread}: {', '.join(names)} = {cells}, must be {right}")
         self.outcome.values += len(shown) * len(names)
         return bool(problems and self.fail("place", problems, command))
 
@@ -235,7 +238,7 @@ class Check:
     def loops(self) -> bool:
         if not any(s.kind in ("for", "while", "do") for s in self.program.statements()):
             return False
-        command = [str(self.tools.shadestep), "loops", "--json", "--", *self.draw]
+        command = [str(self.tools.shadestep), "loops", "--json", *self.stage, "--", *self.draw]
         status, out, err = run(command, self.tools.timeout)
         if status != 0:
             return bool(self.fail("loops", [f"status {status}: {err.strip()[-600:]}"], command))

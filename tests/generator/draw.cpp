@@ -1,22 +1,24 @@
-// Draws one triangle over a small target with the fragment shader in a file, in a context and with inputs
-// that a description names, and writes all that came of it to another file:
+// Runs the shaders in files over a small target, in a context and with inputs that a description names, and
+// writes all that came of it to another file:
 //
-//   generator-draw SCENE VERTEX_SHADER FRAGMENT_SHADER [RESULT]
+//   generator-draw SCENE SHADERS... [RESULT]
 //
-// SCENE, a line each:   context core|compatibility|es   size W H   target float|int|uint (a colour target
-// each)
-//   depth (a depth buffer)   out NAME LOCATION (before linking)   uniform NAME i|u|f COMPONENTS VALUE...
-//   block NAME VALUE... (ints)   storage INTS   image   counter   texture NAME int|float (4 x 4,
-//   evaluate.py's texel()) subroutine UNIFORM FUNCTION
+// Shaders are told apart by the ends of their names: .vert .tesc .tese .geom .frag .comp.
+// SCENE, a line each:   call triangle (over all) | points (one on each pixel) | patches N (the same points, N
+// a patch) | dispatch (an invocation for each pixel, in groups of 4 x 2)   context core|compatibility|es
+//   size W H   target float|int|uint (a colour target each)   depth (a depth buffer)
+//   out NAME LOCATION (before linking)   uniform NAME i|u|f COMPONENTS VALUE...   block NAME VALUE... (ints)
+//   storage INTS   image   counter   texture NAME int|float (4 x 4, evaluate.py's texel())
+//   subroutine UNIFORM FUNCTION
 // RESULT: a line each for every target (`target I WORDS...`, RGBA rows bottom up, hexadecimal), `depth
-// WORDS...`,
-//   `storage WORDS...`, `image WORDS...`, `counter WORD`.
+// WORDS...`, `storage WORDS...`, `image WORDS...`, `counter WORD`.
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -47,7 +49,8 @@ struct Values {
 };
 
 struct Scene {
-  std::string context = "core";
+  std::string call = "triangle", context = "core";
+  int patch_vertices = 1;
   int width = 6, height = 5;
   std::vector<std::string> targets;
   bool depth = false, image = false, counter = false;
@@ -66,6 +69,7 @@ Scene readScene(const char* name) {
     std::string what, text;
     words >> what;
     Values values;
+    if (what == "call") words >> scene.call >> scene.patch_vertices;
     if (what == "context") words >> scene.context;
     if (what == "size") words >> scene.width >> scene.height;
     if (what == "target") scene.targets.push_back((words >> text, text));
@@ -125,11 +129,27 @@ GLuint compile(GLenum stage, const char* name) {
   return shader;
 }
 
-GLuint link(const Scene& scene, const char* vertex, const char* fragment) {
+// The stages of the shaders in the files; ends at the first that is none.
+std::vector<GLenum> stagesOf(char** files) {
+  const std::pair<const char*, GLenum> ends[] = {
+      {".vert", GL_VERTEX_SHADER},   {".tesc", GL_TESS_CONTROL_SHADER}, {".tese", GL_TESS_EVALUATION_SHADER},
+      {".geom", GL_GEOMETRY_SHADER}, {".frag", GL_FRAGMENT_SHADER},     {".comp", GL_COMPUTE_SHADER}};
+  std::vector<GLenum> stages;
+  for (; *files != nullptr; ++files) {
+    const std::string name = *files;
+    const auto* const found = std::find_if(std::begin(ends), std::end(ends),
+                                           [&](const auto& one) { return name.ends_with(one.first); });
+    if (found == std::end(ends)) break;
+    stages.push_back(found->second);
+  }
+  return stages;
+}
+
+GLuint link(const Scene& scene, const std::vector<GLenum>& stages, char** files) {
   const GLuint program = glCreateProgram();
-  glAttachShader(program, compile(GL_VERTEX_SHADER, vertex));
-  glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment));
+  for (std::size_t i = 0; i < stages.size(); ++i) glAttachShader(program, compile(stages[i], files[i]));
   glBindAttribLocation(program, 0, "corner");
+  glBindAttribLocation(program, 1, "place");
   for (const auto& [name, location] : scene.outputs) glBindFragDataLocation(program, location, name.c_str());
   glLinkProgram(program);
   GLint linked = 0;
@@ -198,19 +218,18 @@ void makeTextures(const Scene& scene, GLuint program) {
 }
 
 // As many locations as the linker left alive.
-void chooseSubroutines(const Scene& scene, GLuint program) {
+void chooseSubroutines(const Scene& scene, GLuint program, GLenum stage) {
   GLint locations = 0;
   if (!scene.subroutines.empty())
-    glGetProgramStageiv(program, GL_FRAGMENT_SHADER, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS, &locations);
+    glGetProgramStageiv(program, stage, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS, &locations);
   if (locations <= 0) return;
   std::vector<GLuint> indices(static_cast<std::size_t>(locations));
   for (const auto& [uniform, function] : scene.subroutines) {
-    const GLint at = glGetSubroutineUniformLocation(program, GL_FRAGMENT_SHADER, uniform.c_str());
+    const GLint at = glGetSubroutineUniformLocation(program, stage, uniform.c_str());
     if (at >= 0)
-      indices[static_cast<std::size_t>(at)] =
-          glGetSubroutineIndex(program, GL_FRAGMENT_SHADER, function.c_str());
+      indices[static_cast<std::size_t>(at)] = glGetSubroutineIndex(program, stage, function.c_str());
   }
-  glUniformSubroutinesuiv(GL_FRAGMENT_SHADER, locations, indices.data());
+  glUniformSubroutinesuiv(stage, locations, indices.data());
 }
 
 GLuint zeroedBuffer(GLenum target, std::size_t words) {
@@ -275,6 +294,41 @@ void makeTargets(const Scene& scene) {
   glViewport(0, 0, scene.width, scene.height);
 }
 
+void attribute(GLuint index, GLint components, const std::vector<float>& values) {
+  GLuint buffer = 0;
+  glGenBuffers(1, &buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(sizeof(float) * values.size()), values.data(),
+               GL_STATIC_DRAW);
+  glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glEnableVertexAttribArray(index);
+}
+
+void run(const Scene& scene) {
+  if (scene.call == "dispatch")
+    return glDispatchCompute(static_cast<GLuint>(scene.width / 4), static_cast<GLuint>(scene.height / 2), 1);
+  GLuint array = 0;
+  glGenVertexArrays(1, &array);
+  glBindVertexArray(array);
+  if (scene.call == "triangle") {
+    attribute(0, 2, {-1, -1, 3, -1, -1, 3});
+    return glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  std::vector<float> corners;
+  std::vector<float> places;
+  for (int i = 0; i < scene.width * scene.height; ++i) {
+    const float x = static_cast<float>(i % scene.width) + 0.5F;
+    const float y = static_cast<float>(i / scene.width) + 0.5F;
+    places.insert(places.end(), {x, y});
+    corners.insert(corners.end(), {2 * x / static_cast<float>(scene.width) - 1,
+                                   2 * y / static_cast<float>(scene.height) - 1, 0, 1});
+  }
+  attribute(0, 4, corners);
+  attribute(1, 2, places);
+  if (scene.call == "patches") glPatchParameteri(GL_PATCH_VERTICES, scene.patch_vertices);
+  glDrawArrays(scene.call == "patches" ? GL_PATCHES : GL_POINTS, 0, scene.width * scene.height);
+}
+
 void writeWords(std::ostream& out, const std::string& what, const std::vector<std::uint32_t>& words) {
   out << what << std::hex;
   for (const std::uint32_t word : words) out << " " << word;
@@ -302,34 +356,25 @@ std::vector<std::uint32_t> pixels(const Scene& scene, GLenum format, GLenum type
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) fail("usage: generator-draw SCENE VERTEX_SHADER FRAGMENT_SHADER [RESULT]");
+  if (argc < 3) fail("usage: generator-draw SCENE SHADERS... [RESULT]");
   const Scene scene = readScene(argv[1]);
+  const std::vector<GLenum> stages = stagesOf(argv + 2);
   makeContext(scene.context);
-  const GLuint program = link(scene, argv[2], argv[3]);
-  makeTargets(scene);
+  const GLuint program = link(scene, stages, argv + 2);
+  if (scene.call != "dispatch") makeTargets(scene);
   glUseProgram(program);
   setUniforms(scene, program);
   makeTextures(scene, program);
-  chooseSubroutines(scene, program);
+  for (const GLenum stage : stages) chooseSubroutines(scene, program, stage);
   const GLuint storage = scene.storage > 0 ? zeroedBuffer(GL_SHADER_STORAGE_BUFFER, scene.storage) : 0;
   const GLuint counter = scene.counter ? zeroedBuffer(GL_ATOMIC_COUNTER_BUFFER, 1) : 0;
   const GLuint image = scene.image ? makeImage(scene) : 0;
 
-  const float corners[] = {-1, -1, 3, -1, -1, 3};
-  GLuint array = 0;
-  GLuint vertices = 0;
-  glGenVertexArrays(1, &array);
-  glBindVertexArray(array);
-  glGenBuffers(1, &vertices);
-  glBindBuffer(GL_ARRAY_BUFFER, vertices);
-  glBufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STATIC_DRAW);
-  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glEnableVertexAttribArray(0);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  run(scene);
   if (scene.storage > 0 || scene.image || scene.counter) glMemoryBarrier(GL_ALL_BARRIER_BITS);
 
   std::ofstream out;
-  if (argc > 4) out.open(argv[4]);
+  if (const char* result = argv[2 + stages.size()]) out.open(result);
   for (std::size_t i = 0; i < scene.targets.size(); ++i) {
     const std::string& kind = scene.targets[i];
     glReadBuffer(static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i));

@@ -59,8 +59,8 @@ class Evaluator:
         return [e.data]
 
     def e_var(self, e: E) -> list:
-        if e.data.name == "gl_FragCoord":
-            return self.coord
+        if e.data.storage == "builtin":
+            return self.place_on_target if e.data.name == "corner" else self.coord
         value = self.env.get(e.data)
         if value is None:
             raise Undefined("uninitialised")

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Random fragment shaders through the debugger, compared with the same shaders run on the CPU by GLSL's rules alone.
+"""Random shaders through the debugger, compared with the same shaders run on the CPU by GLSL's rules alone.
 
-    scripts/fuzz [--seeds A..B] [--jobs 1] [--out DIR] [--no-reduce]
+    scripts/fuzz [--stage S] [--seeds A..B] [--jobs 1] [--out DIR] [--no-reduce]
 
-Each seed makes one shader: versions 1.10 to 4.50 and ES 1.00 to 3.10 in turn. It is drawn without the debugger, then
-under `verify`, then recorded on two pixels (`debug`, step by step), looked at in one place for all threads, and its loops
-are counted. What fails is made smaller and kept in --out (build/fuzz), and the command that repeats it is printed.
+Each seed makes one shader of the stage (vertex, tess-control, tess-eval, geometry, fragment, compute; default: fragment),
+versions 1.10 to 4.50 and ES 1.00 to 3.10 in turn, as far as they have the stage. It is drawn without the debugger, then under `verify`, then recorded in two threads (`debug`, step by step), looked at in one place for
+all threads, and its loops are counted. What fails is made smaller and kept in --out (build/fuzz), and the command that repeats it is printed.
 Exit status: 0 if nothing failed, 1 if something did.
 """
 
@@ -25,17 +25,18 @@ from dialect import Dialect
 from generate import Generator, dialect_of
 from interpret import Undefined
 from reduce import reduce
+from stages import STAGES
 from tree import Program
 
 REPOSITORY = Path(__file__).resolve().parent.parent.parent
 
 
-def make(seed: int) -> tuple[Program, Dialect]:
+def make(seed: int, stage: str = "fragment") -> tuple[Program, Dialect]:
     """Programs that turn out to be undefined, or too long, are thrown away."""
-    dialect = dialect_of(seed)
+    dialect = dialect_of(seed, stage)
     attempt = 0
     while True:
-        program = Generator(f"{seed}.{attempt}", dialect).generate()
+        program = Generator(f"{seed}.{attempt}", dialect, stage).generate()
         attempt += 1
         try:
             check.interpret(program, set())
@@ -46,8 +47,8 @@ def make(seed: int) -> tuple[Program, Dialect]:
 
 def one(seed: int, options: argparse.Namespace) -> tuple[int, check.Outcome, Path]:
     tools = check.Tools(options.shadestep, options.draw)
-    folder = options.out / f"seed-{seed}"
-    program, dialect = make(seed)
+    folder = options.out / f"{options.stage}-{seed}"
+    program, dialect = make(seed, options.stage)
     outcome = check.Check(program, dialect, folder, tools, str(seed)).run()
     if not outcome.kind:
         shutil.rmtree(folder)
@@ -58,6 +59,7 @@ def one(seed: int, options: argparse.Namespace) -> tuple[int, check.Outcome, Pat
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--stage", default="fragment", choices=STAGES)
     parser.add_argument("--seeds", default="0..99")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--no-reduce", dest="reduce", action="store_false")
@@ -91,7 +93,7 @@ def main() -> int:
             if outcome.kind:
                 failed[outcome.kind].append(seed)
                 print(f"fuzz: seed {seed}: {outcome.kind}\n  " + "\n  ".join(outcome.problems) +
-                      f"\n  shader: {folder / 'shader.frag'}\n  repeat: {' '.join(outcome.command)}", flush=True)
+                      f"\n  shader: {folder / STAGES[options.stage].file}\n  repeat: {' '.join(outcome.command)}", flush=True)
     print(f"{done} shaders, {steps} recorded steps and {values} values compared, "
           f"{sum(map(len, failed.values()))} failures" +
           (f" ({', '.join(f'{kind}: {seeds}' for kind, seeds in failed.items())})" if failed else "") +

@@ -1,4 +1,4 @@
-"""Random valid fragment shaders, the same for the same seed."""
+"""Random valid shaders, the same for the same seed."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import random
 
 from dialect import DIALECTS, Dialect
 from operands import MANY, REST, Context, lit, var
+from stages import STAGES
 from statements import Statements
 from tree import BOOL, E, FLOAT, INT, UINT, VOID, Function, Program, S, Struct, Subroutine, Type, Variable, vec
 
@@ -14,20 +15,21 @@ NAMES = ["a", "b", "c", "d", "e", "i", "j", "k", "n", "v", "w", "sum", "value", 
          "mark", "reached", "words", "index_", "S1", "hit", "pixel", "sd_main", "_", "_0", "aVeryLongNameForAVariable"]
 OLD_NAMES = ["sample", "patch", "buffer", "shared", "texture", "smooth", "layout", "flat", "uint"]
 FUNCTION_NAMES = ["f", "g", "h", "shade", "step1", "pick", "sd_f", "helper", "next", "apply"]
-WIDTH, HEIGHT = 6, 5
 
 
 class Generator(Statements):
-    def __init__(self, seed: str, dialect: Dialect, size: int = 24):
+    def __init__(self, seed: str, dialect: Dialect, stage: str = "fragment", size: int = 24):
+        self.stage = stage
         self.random = random.Random(seed)
         self.dialect = dialect
         self.budget = size
-        self.program = Program(dialect.version, dialect.es, WIDTH, HEIGHT)
+        self.program = Program(dialect.version, dialect.es, *STAGES[stage].size, stage)
         self.functions: list[Function] = []
         self.structs: list[Struct] = []
         self.scopes: list[dict] = [{}]
         self.lim = self.low = None
-        self.coord = Variable("gl_FragCoord", vec("float", 4), "builtin", (0.5, 31.5), False)
+        # Where the thread is, in halves: stages.py
+        self.coord = Variable("gl_FragCoord" if stage == "fragment" else "place", vec("float", 4), "builtin", (0.5, 31.5), False)
         self.current: Function | None = None
         self.loops = 0  # around the current statement, in its function
         self.switches = 0  # between it and the innermost loop
@@ -151,8 +153,8 @@ class Generator(Statements):
                 # texel() of evaluate.py
                 v = Variable(f"map_{base}", Type(base, 4), "texture", (-20, 49) if base == "int" else (-5.0, 12.25), False)
                 self.add_global(v, "texture")
-        if d.memory and r.random() < 0.7:
-            cells = Variable("cells", Type("int", 1, 1, (WIDTH * HEIGHT,)), "buffer", None)
+        if d.memory and (r.random() < 0.7 or STAGES[self.stage].memory_only):
+            cells = Variable("cells", Type("int", 1, 1, (self.program.width * self.program.height,)), "buffer", None)
             total = Variable("total", INT, "buffer", None)
             self.add_global(total, "storage")
             self.add_global(cells, "storage")
@@ -160,11 +162,16 @@ class Generator(Statements):
                 self.add_global(Variable("picture", INT, "image", None), "image")
             if r.random() < 0.6:
                 self.add_global(Variable("counted", UINT, "counter", None), "counter")
+        if STAGES[self.stage].memory_only:
+            return
         if d.integers:
             for i in range(r.choice([1, 1, 2, 3])):
                 base = r.choice(["float", "float", "int", "uint"])
                 v = Variable(f"out_{i}", Type(base, 4), "out", (64.0, 192.0) if base == "float" else None)
                 self.outputs.append(self.add_global(v, "out"))
+        elif self.stage == "vertex":
+            v = Variable("out_0", vec("float", 4), "out", (64.0, 192.0))
+            self.outputs.append(self.add_global(v, "varying"))
         else:
             v = Variable("gl_FragColor", vec("float", 4), "builtin-out", (64.0, 192.0))
             if not d.es and r.random() < 0.5:
@@ -172,7 +179,7 @@ class Generator(Statements):
                 self.outputs.append(v)  # longer than these two: not for the shader's own expressions
             else:
                 self.outputs.append(self.declare(v))
-        if r.random() < 0.25 and not (d.es and d.version < 300):
+        if r.random() < 0.25 and not (d.es and d.version < 300) and self.stage == "fragment":
             depth = Variable("gl_FragDepth", FLOAT, "builtin-out", (0.25, 0.75))
             self.outputs.append(depth)
 
@@ -324,19 +331,44 @@ class Generator(Statements):
         self.loops = self.switches = 0
         self.budget = r.randint(8, 20)
         self.scopes.append({})
-        body = [s for v in self.outputs for s in self.first_values(v)]
+        body = self.first_builtins()
+        body += [s for v in self.outputs for s in self.first_values(v)]
         x, y = (E("ctor", INT, [E("swizzle", FLOAT, [var(self.coord)], c, (0.5, 31.5), 1)], range_=(0, 31)) for c in "xy")
-        self.pix = Variable("pix", INT, "local", (0, WIDTH * HEIGHT - 1), False)
-        at = E("bin", INT, [E("bin", INT, [y, lit(INT, WIDTH)], "*"), x], "+")
+        self.pix = Variable("pix", INT, "local", (0, self.program.width * self.program.height - 1), False)
+        at = E("bin", INT, [E("bin", INT, [y, lit(INT, self.program.width)], "*"), x], "+")
         body.append(S("decl", [at], data=[(self.declare(self.pix), 0)]))
         body += self.statements(r.randint(4, 9))
         for v in self.outputs:
             body.append(self.output(v))
         used = E("call", BOOL, [], self.scopes[0]["used"])
-        body.append(S("if", [used], [S("block", body=self.first_values(self.outputs[0]))]))
+        body.append(S("if", [used], [S("block", body=self.first_values(self.outputs[0]) if self.outputs else self.touch())]))
+        if self.stage == "geometry":
+            body.append(S("expr", [E("emit", VOID)]))
         self.scopes.pop()
         function.body = body
         self.finish(function)
+
+    def first_builtins(self) -> list[S]:
+        """A point on each pixel; patches of as many vertices as they are made for."""
+        if self.stage == "tess-control":
+            v = Variable("gl_TessLevelOuter", Type("float", dims=(4,)), "builtin-out", (1.0, 1.0))
+            places = [E("index", FLOAT, [var(v), lit(INT, i)]) for i in range(2)]
+            return [S("expr", [E("assign", FLOAT, [place, lit(FLOAT, 1.0)], "=", v.range)]) for place in places]
+        if self.stage not in ("vertex", "tess-eval", "geometry"):
+            return []
+        v = Variable("gl_Position", vec("float", 4), "builtin-out", (-1.0, 1.0))
+        corner = Variable("corner", v.type, "builtin", (-1.0, 1.0), False)
+        made = [S("expr", [E("assign", v.type, [var(v), var(corner)], "=", v.range)])]
+        if self.dialect.es:
+            size = Variable("gl_PointSize", FLOAT, "builtin-out", (1.0, 1.0))
+            made.append(S("expr", [E("assign", FLOAT, [var(size), lit(FLOAT, 1.0)], "=", size.range)]))
+        return made
+
+    def touch(self) -> list[S]:
+        total = next(v for v in self.program.globals if v.name == "total")
+        e = E("memory", INT, [var(total), lit(INT, 1)], (self.atomic, total))
+        e.writes |= {total}
+        return [S("expr", [e])]
 
     def used(self) -> None:
         """Keeps the driver from dropping uniforms that nothing drawn depends on: those have no value to show."""
@@ -394,5 +426,7 @@ def has_array(t: Type) -> bool:
     return bool(t.dims) or bool(t.struct and any(has_array(member) for _, member in t.struct.members))
 
 
-def dialect_of(seed: int) -> Dialect:
-    return DIALECTS[seed % len(DIALECTS)]
+def dialect_of(seed: int, stage: str) -> Dialect:
+    """Those that have the stage, in turn."""
+    dialects = [d for d in DIALECTS if STAGES[stage].runs(d)]
+    return dialects[seed % len(dialects)]

@@ -1,4 +1,4 @@
-"""Runs a program for one pixel after another, by the rules of GLSL alone: the truth that the debugger must show.
+"""Runs a program for one thread after another, by the rules of GLSL alone: the truth that the debugger must show.
 
 Everything is exact: integers wrap, and a float operation whose result would have to be rounded ends the run
 with Undefined, like everything else that GLSL leaves open (uninitialised reads, indices outside of bounds, ...).
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from arithmetic import Undefined
 from evaluate import Evaluator
-from tree import Function, Program, S, Variable, vec
+from tree import E, Function, Program, S, Variable, vec
 
 
 class Discarded(Exception):
@@ -48,7 +48,8 @@ class Step:
 class Pixel:
     steps: list[Step]
     discarded: bool
-    outputs: dict  # Variable -> value
+    nothing: bool  # the thread draws nothing
+    outputs: dict  # Variable -> value, as far as it draws
     initial: dict  # of globals: their values before main
     loops: dict  # loop statement -> list of iterations, one per time that it was entered
 
@@ -71,6 +72,7 @@ class Interpreter(Evaluator):
     def run(self, x: int, y: int, record: bool) -> Pixel:
         self.env: dict[Variable, list] = dict(self.memory)
         self.coord = [x + 0.5, y + 0.5, None, None]
+        self.place_on_target = [2 * (x + 0.5) / self.program.width - 1, 2 * (y + 0.5) / self.program.height - 1, 0.0, 1.0]
         self.steps: list[Step] = []
         self.record = False  # not what initializes globals
         self.count = 0
@@ -88,12 +90,25 @@ class Interpreter(Evaluator):
         self.record, self.count, self.loop_counts = record, 0, {}
         self.initial = {v: list(value) for v, value in self.env.items() if value is not None}
         self.at_watched: dict | None = None
+        self.emitted: dict | None = None
         try:
             self.call(self.main, [])
         except Discarded:
             discarded = True
-        outputs = {v: value for v, value in self.env.items() if v.storage in ("out", "builtin-out")}
-        return Pixel(self.steps, discarded, outputs, self.initial, self.loop_counts)
+        outputs = self.emitted if self.program.stage == "geometry" else self.given()
+        return Pixel(self.steps, discarded, discarded or outputs is None, outputs or {}, self.initial,
+                     self.loop_counts)
+
+    def given(self) -> dict[Variable, list]:
+        return {v: list(value) for v, value in self.env.items() if v.storage in ("out", "builtin-out")}
+
+    def e_emit(self, e: E) -> list:
+        """Outputs are undefined behind it."""
+        self.emitted = self.given()
+        for v in self.emitted:
+            self.env[v] = [None] * v.type.words()
+        return []
+
 
     def step(self, kind: str, at, visible: dict, outcome=None, returned=None, iteration: int | None = None) -> None:
         self.count += 1

@@ -60,7 +60,7 @@ def lit(type_: Type, value) -> E:
 
 def var(variable: Variable) -> E:
     frac = 2 if variable.type.base in ("float", "double") else 0
-    if variable.name == "gl_FragCoord":
+    if variable.storage == "builtin":
         frac = 1
     e = E("var", variable.type, data=variable, range_=variable.range, frac=frac)
     if variable.storage not in ("constant", "uniform", "builtin"):

@@ -7,12 +7,14 @@ from pathlib import Path
 
 from dialect import Dialect
 from interpret import Interpreter, Pixel
+from stages import STAGES, companions
 from text import Writer
 from tree import Program
 
 
 def describe(program: Program, dialect: Dialect) -> str:
-    lines = ["context " + ("es" if dialect.es else "core" if dialect.core else "compatibility"),
+    shows = program.stage == "fragment"
+    lines = ["call " + STAGES[program.stage].call, "context " + ("es" if dialect.es else "core" if dialect.core else "compatibility"),
              f"size {program.width} {program.height}"]
     for v in program.outputs:
         if v.name == "gl_FragDepth":
@@ -22,7 +24,8 @@ def describe(program: Program, dialect: Dialect) -> str:
         else:
             lines.append(f"target {v.type.base}")
     if not dialect.locations:
-        lines += [f"out {v.name} {n}" for n, v in enumerate(o for o in program.outputs if o.storage == "out")]
+        names = [v.name if shows else "shown_" + v.name for v in program.outputs if v.storage == "out"]
+        lines += [f"out {name} {n}" for n, name in enumerate(names)]
     for v in program.globals:
         values = " ".join(str(float(one)) if v.type.base == "float" else str(int(one)) for one in v.value or [])
         if v.qualifier == "uniform":
@@ -39,16 +42,11 @@ def describe(program: Program, dialect: Dialect) -> str:
     return "\n".join(lines + ([f"storage {cells}"] if cells else [])) + "\n"
 
 
-def vertex_text(dialect: Dialect) -> str:
-    attribute = "in" if dialect.integers else "attribute"
-    return f"{dialect.line()}\n{attribute} vec2 corner;\nvoid main() {{ gl_Position = vec4(corner, 0.0, 1.0); }}\n"
-
-
 def write(program: Program, dialect: Dialect, folder: Path) -> list[str]:
     """Arguments of generator-draw."""
     folder.mkdir(parents=True, exist_ok=True)
-    texts = {"scene.txt": describe(program, dialect), "shader.vert": vertex_text(dialect),
-             "shader.frag": Writer(program, dialect).write()}
+    texts = {"scene.txt": describe(program, dialect), STAGES[program.stage].file: Writer(program, dialect).write(),
+             **companions(program.stage, dialect, program.outputs)}
     for name, text in texts.items():
         (folder / name).write_text(text)
     return [str(folder / name) for name in texts]
@@ -67,13 +65,13 @@ def expected(program: Program, interpreter: Interpreter, pixels: list[Pixel]) ->
     for v in program.outputs:
         if v.name == "gl_FragDepth":
             if not program.es:
-                result["depth"] = [word(1.0 if p.discarded else p.outputs[v][0], "float") for p in pixels]
+                result["depth"] = [word(1.0 if p.nothing else p.outputs[v][0], "float") for p in pixels]
             continue
         for n in range(v.type.dims[0] if v.type.dims else 1):
             words = []
             for p in pixels:
                 values = p.outputs.get(v, [None] * v.type.words())[4 * n:4 * n + 4]
-                words += [0 if p.discarded else None if one is None else word(one, v.type.base) for one in values]
+                words += [0 if p.nothing else None if one is None else word(one, v.type.base) for one in values]
             result[f"target {location}"] = words
             location += 1
     if interpreter.memory:

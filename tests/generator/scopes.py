@@ -51,7 +51,7 @@ class Resolver:
         if e is None:
             return
         for one in e.walk():
-            if one.kind == "var" and not one.data.name.startswith("gl_"):
+            if one.kind == "var" and not one.data.storage.startswith("builtin"):
                 if self.visible().get(one.data.name) is not one.data:
                     raise Invalid(f"{one.data.name} means something else")
             elif one.kind == "fetch":

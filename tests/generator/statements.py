@@ -8,7 +8,7 @@ from tree import BOOL, E, FLOAT, INT, UINT, VOID, S, Type, Variable
 
 
 class Statements(Expressions):
-    """Needs of its owner, too: self.current, self.loops, self.switches, self.budget, self.pix, self.atomic."""
+    """Needs of its owner, too: self.stage, self.current, self.loops, self.switches, self.budget, self.pix, self.atomic."""
 
     def statements(self, count: int) -> list[S]:
         made: list[S] = []
@@ -161,7 +161,7 @@ class Statements(Expressions):
             choices += ["break", "continue"] * 3
         elif self.switches:
             choices += ["break"] * 2 + (["continue"] if self.loops else [])
-        if r.random() < 0.3:
+        if r.random() < 0.3 and self.stage == "fragment":
             choices += ["discard"]
         kind = r.choice(choices)
         if self.current.name == "main" and kind == "return" and r.random() < 0.6:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 
 from dialect import Dialect
+from stages import header
 from tree import E, Function, Program, S, Subroutine, Type, Variable
 
 PRECEDENCE = {"*": 12, "/": 12, "%": 12, "+": 11, "-": 11, "<<": 10, ">>": 10, "<": 9, ">": 9, "<=": 9, ">=": 9, "==": 8,
@@ -92,6 +93,8 @@ class Writer:
             return [e.type.name(), *dims, "(", *self.list_(e.args), ")"], 14
         if k == "memory":
             return self.memory(e), 14
+        if k == "emit":
+            return ["EmitVertex", "(", ")"], 14
         if k == "fetch":
             at = ["ivec2", "(", *self.list_(e.args), ")"]
             return ["texelFetch", "(", e.data.name, ",", *at, ",", "0", ")"], 14
@@ -196,7 +199,7 @@ class Writer:
             lines.insert(1, "#extension GL_ARB_gpu_shader_int64 : enable")
         if self.dialect.es:
             lines += ["precision highp float;", "precision highp int;"]
-        return lines
+        return lines + header(self.program.stage, self.dialect)
 
     def global_(self, v: Variable, location: int) -> list[str]:
         q, dims = v.qualifier, [t for n in v.type.dims for t in ("[", str(n), "]")]
@@ -213,6 +216,8 @@ class Writer:
             return ["layout", "(", "binding", "=", "0", ",", "offset", "=", "0", ")", "uniform", "atomic_uint", v.name, ";"]
         if q == "block":
             return ["layout", "(", "std140", ")", "uniform", "Block", "{", v.type.name(), v.name, *dims, ";", "}", ";"]
+        if q == "out" and self.program.stage != "fragment":
+            return ["flat", "out", *highp, v.type.name(), v.name, ";"]
         if q == "out" and self.dialect.locations:
             return ["layout", "(", "location", "=", str(location), ")", "out", v.type.name(), v.name, ";"]
         init = ["=", *self.kid(v.initializer, 1)] if v.initializer is not None else []

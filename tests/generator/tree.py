@@ -1,4 +1,4 @@
-"""GLSL programs as trees: what the generator makes, the interpreter runs and the reducer makes smaller.
+"""Shaders as trees: what the generator makes, the interpreter runs and the reducer makes smaller.
 
 A value is the flat list of its components in canonical order: array elements, columns, rows, members in order. A
 component that the shader has not given a value is None.
@@ -173,8 +173,9 @@ class Subroutine:
 class Program:
     version: int
     es: bool
-    width: int
+    width: int  # threads: pixels, a vertex for each pixel, or invocations of a dispatch
     height: int
+    stage: str = "fragment"  # of stages.py
     structs: list[Struct] = field(default_factory=list)
     # Variable (outputs and uniforms too), Function and Subroutine, in the order of the text; the last is main
     declarations: list = field(default_factory=list)
