@@ -130,19 +130,23 @@ std::vector<NamedValue> inputsOf(const Shader& shader, const ThreadValues& threa
   return inputs;
 }
 
-// The numbers that the recording compares, and which of the threads that have them is meant.
-std::vector<std::int32_t> numbersOf(const ThreadValues& threads, std::size_t thread, std::size_t& repeat) {
-  std::vector<std::int32_t> numbers;
-  for (const WatchedValues& one : threads.identity) {
-    if (one.name == "repeat")
-      repeat = *one.at(thread);
-    else
-      numbers.push_back(static_cast<std::int32_t>(*one.at(thread)));
-  }
-  return numbers;
-}
-
 }  // namespace
+
+// By the numbers that the recording compares; threads that have the same ones come in the driver's order.
+ThreadRecord recordThread(Session& session, const Session::PreparedRecording& prepared,
+                          const ThreadValues& all, std::size_t place) {
+  std::vector<std::int32_t> numbers;
+  std::size_t repeat = 0;
+  for (const WatchedValues& one : all.identity) {
+    if (one.name == "repeat")
+      repeat = *one.at(place);
+    else
+      numbers.push_back(static_cast<std::int32_t>(*one.at(place)));
+  }
+  ThreadRecord record{session.record(prepared, numbers), -1};
+  if (repeat < record.recorded.recording.threads.size()) record.thread = static_cast<int>(repeat);
+  return record;
+}
 
 ThreadRun followThread(Session& session, const ThreadName& name) {
   const Shader& shader = session.shader();
@@ -153,12 +157,11 @@ ThreadRun followThread(Session& session, const ThreadName& name) {
   ThreadRun run;
   if (auto* recording = std::get_if<instrumenter::RecordingShader>(&instrumented)) {
     Prepared program = session.prepare(*recording);
-    std::size_t repeat = 0;
-    const std::vector<std::int32_t> numbers = numbersOf(inputs, number, repeat);
-    const Session::Recorded recorded = session.record({std::move(*recording), std::move(program)}, numbers);
-    if (recorded.recording.threads.size() <= repeat)
+    const auto [recorded, which] =
+        recordThread(session, {std::move(*recording), std::move(program)}, inputs, number);
+    if (which < 0)
       throw Error(Outcome::failed, "the draw does not run this thread again; its run cannot be shown");
-    const instrumenter::ThreadRecording& thread = recorded.recording.threads[repeat];
+    const instrumenter::ThreadRecording& thread = recorded.recording.threads[static_cast<std::size_t>(which)];
     run.steps = stepsOf(shader, recorded.layout, thread);
     run.complete = thread.complete;
     run.check = recorded.execution.check;

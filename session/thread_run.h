@@ -8,6 +8,8 @@
 
 namespace shadestep::session {
 
+struct ThreadValues;
+
 struct NamedValue {
   std::string name;
   instrumenter::Value value;
@@ -73,6 +75,15 @@ ThreadRun followPixel(Session&, int x, int y, int hit = -1);
 // The same of a thread of the selected stage, which is another one, by its name.
 // Throws nothing_matches, saying what there is.
 ThreadRun followThread(Session&, const ThreadName&);
+
+// Records the thread of another stage that stands at this place among all of them. `thread`: which of those
+// recorded it is; -1 if it is not among them.
+struct ThreadRecord {
+  Session::Recorded recorded;
+  int thread = -1;
+};
+ThreadRecord recordThread(Session&, const Session::PreparedRecording&, const ThreadValues& all,
+                          std::size_t place);
 
 // Number of the recorded thread that the pixel shows; -1 if it shows none of them.
 int visibleThread(const Session::Recorded&, int x, int y);

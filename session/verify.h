@@ -1,6 +1,6 @@
-// `verify`: steps through every site of a draw's fragment shader by every capture plan that the driver
-// offers, takes every measure, and compares what must be equal. The debugger tests itself on the user's own
-// shaders and driver.
+// `verify`: steps through every site of a draw's shaders by every capture plan that the driver offers, takes
+// every measure, and compares what must be equal. The debugger tests itself on the user's own shaders and
+// driver.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,11 +17,13 @@
 namespace shadestep::session {
 
 struct VerifyOptions {
-  int pixels = 8;                  // recorded and compared in each draw, spread over what the draw covers
+  std::optional<Stage> stage;      // nothing: every stage that a draw has
+  int threads = 8;                 // recorded and compared of each shader: pixels, spread over what the draw
+                                   // covers, or threads of another stage, spread over all of them
   int draws_per_shader = 1;        // later draws with the same program and text are skipped
-  double seconds_per_draw = 60;    // then the rest of the draw's sites is skipped
+  double seconds_per_draw = 60;    // shared by its stages; then the rest of their sites is skipped
   std::size_t window_probes = 24;  // of all probes, spread over the shader, those that also go into windows
-  std::size_t redrawn_steps = 20;  // of one pixel's run, that are also followed by redraws
+  std::size_t redrawn_steps = 20;  // of one thread's run, that are also followed by redraws
   std::size_t counted_statements = 8;  // whose runs are counted as `profile` counts them
 };
 
@@ -28,31 +31,41 @@ struct VerifyOptions {
 struct VerifyFailure {
   enum class Kind { compile, output, value, state, crash };
   Kind kind = Kind::value;
+  std::optional<Stage> stage;  // nothing: of the whole program
   std::uint64_t frame = 0, draw = 0;
   int line = 0, column = 0;  // 0: the whole draw
   // "copy", "single before", "single after", "choice", "behind a call", "recording", "window", "redraws",
-  // "loops", "count", "clock", "state"
+  // "loops", "count", "clock", "state", "draw"
   std::string plan;
   std::string variable;
   std::string detail;
 };
 
-struct VerifyReport {
-  std::uint64_t draws = 0;    // looked at, those skipped included
-  std::uint64_t shaders = 0;  // different fragment shaders that were stepped through
+struct VerifyCounts {
+  std::uint64_t shaders = 0;  // different shaders that were stepped through
   std::uint64_t sites = 0;    // places at which some plan looked
   std::uint64_t passes = 0;   // instrumented shaders drawn with
   std::uint64_t compared =
-      0;  // values (variables at a place on a pixel) that two plans agree or disagree about
-  std::uint64_t analysis_failed = 0;  // different fragment shaders that cannot be analysed
+      0;  // values (variables at a place in a thread) that two plans agree or disagree about
+  std::uint64_t analysis_failed = 0;  // different shaders that cannot be analysed
   std::uint64_t compile_failed = 0, output_mismatch = 0, value_mismatch = 0, state_leaks = 0, crashes = 0;
-  std::map<std::string, std::uint64_t> skipped;  // reason -> how often
-  std::vector<VerifyFailure> failures;           // at most kMostFailures
-  static constexpr std::size_t kMostFailures = 200;
 
+  VerifyCounts& operator+=(const VerifyCounts&);
   bool passed() const {
     return compile_failed + output_mismatch + value_mismatch + state_leaks + crashes == 0;
   }
+};
+
+struct VerifyReport {
+  std::uint64_t draws = 0;  // looked at, those skipped included
+  std::map<Stage, VerifyCounts> stages;
+  VerifyCounts outside;                                            // what belongs to no stage: crashes
+  std::map<std::pair<Stage, std::string>, std::uint64_t> skipped;  // stage, reason -> how often
+  std::vector<VerifyFailure> failures;                             // at most kMostFailures
+  static constexpr std::size_t kMostFailures = 200;
+
+  VerifyCounts total() const;
+  bool passed() const { return total().passed(); }
 };
 
 // Checks draws one by one; remembers which shaders it has seen.
@@ -68,11 +81,14 @@ class Verifier {
   void addCrash(const std::string& detail);
 
  private:
+  void checkDraw();
+  void verifyStage(Stage, double seconds);
+
   Session& session_;
   VerifyOptions options_;
   VerifyReport report_;
-  std::map<std::pair<std::uint32_t, std::string>, int> seen_;  // program, text -> draws
-  std::set<std::string> texts_;
+  std::map<std::tuple<std::uint32_t, Stage, std::string>, int> seen_;  // program, stage, text -> draws
+  std::set<std::pair<Stage, std::string>> texts_;
 };
 
 // The program's own colour outputs after the draw at which the session stands, hence of all draws before it

@@ -54,7 +54,7 @@ class DrawCheck {
   DrawCheck(Session& session, const VerifyOptions& options, VerifyReport& report)
       : session_(session),
         options_(options),
-        shader_(session.shader(Stage::fragment)),
+        shader_(session.shader()),
         findings_(session, report),
         windows_(session, findings_, windowStride()) {}
 
@@ -67,7 +67,7 @@ class DrawCheck {
  private:
   void look() {
     if (!copyIsFaithful()) return;
-    if (!findPixels()) return;
+    if (!findThreads()) return;
     record();
     checkSites();
     windows_.finish();
@@ -129,18 +129,21 @@ class DrawCheck {
     return check.differing == 0;
   }
 
-  // ---- which pixels
-  // ----------------------------------------------------------------------------------------
+  // ---- which threads
+  // ---------------------------------------------------------------------------------------
 
-  bool findPixels() {
+  bool findThreads() {
     Probe start;
     start.statement = shader_.functions[static_cast<std::size_t>(shader_.main)].body;
     const Statement& at = shader_.statements[static_cast<std::size_t>(start.statement)];
-    ThreadValues cover;
-    if (!findings_.attempt(&at, "single before", [&] { cover = valuesAt(session_, start); })) return false;
-    findings_.checkOutputs(&at, "single before", cover.check);
-    pixels_ = choosePixels(cover, options_.pixels);
-    if (pixels_.empty()) findings_.skip("no fragment of the draw is visible: values are not compared");
+    if (!findings_.attempt(&at, "single before", [&] { all_ = valuesAt(session_, start); })) return false;
+    findings_.checkOutputs(&at, "single before", all_.check);
+    chosen_ = chooseThreads(all_, options_.threads);
+    if (chosen_.empty()) {
+      findings_.skip(session_.stage() == Stage::fragment
+                         ? "no fragment of the draw is visible: values are not compared"
+                         : "the draw runs no thread of the stage: values are not compared");
+    }
     return true;
   }
 
@@ -148,29 +151,42 @@ class DrawCheck {
   // -------------------------------------------------------------------------------------------
 
   void record() {
-    if (pixels_.empty()) return;
-    std::vector<RecordedPixel> recorded;
+    if (chosen_.empty()) return;
+    std::vector<RecordedThread> recorded;
     const bool ran = findings_.attempt(nullptr, "recording", [&] {
       const Session::PreparedRecording prepared = session_.prepareRecording();
-      for (const Pixel& pixel : pixels_) {
-        RecordedPixel one{pixel, session_.record(prepared, pixel.x, pixel.y, 1, 1), -1};
+      for (const ChosenThread& chosen : chosen_) {
+        RecordedThread one = session_.stage() == Stage::fragment ? recordPixel(prepared, chosen)
+                                                                 : recordNamed(prepared, chosen);
         findings_.checkOutputs(nullptr, "recording", one.recorded.execution.check);
         one.recorded.execution = {};
-        one.thread = pixel.discarded ? onlyDiscarded(one.recorded.recording)
-                                     : visibleThread(one.recorded, pixel.x, pixel.y);
-        if (one.thread < 0 && pixel.discarded) {
+        if (one.thread < 0 && chosen.discarded) {
           findings_.skip(
               "several threads of a pixel end in a discard: a recording does not say which one the probes "
               "see");
         } else if (one.thread < 0) {
-          findings_.fail(Kind::value, nullptr, "recording", "",
-                         where(pixel) + ": a probe sees a fragment here that the recording does not show");
+          findings_.fail(
+              Kind::value, nullptr, "recording", "",
+              where(chosen.name) + ": a probe sees this thread, but the recording does not show it");
         } else {
           recorded.push_back(std::move(one));
         }
       }
     });
     if (ran) recorded_ = std::move(recorded);
+  }
+
+  RecordedThread recordPixel(const Session::PreparedRecording& prepared, const ChosenThread& chosen) {
+    const int x = chosen.name[0].second;
+    const int y = chosen.name[1].second;
+    RecordedThread one{chosen, session_.record(prepared, x, y, 1, 1), -1};
+    one.thread = chosen.discarded ? onlyDiscarded(one.recorded.recording) : visibleThread(one.recorded, x, y);
+    return one;
+  }
+
+  RecordedThread recordNamed(const Session::PreparedRecording& prepared, const ChosenThread& chosen) {
+    ThreadRecord record = recordThread(session_, prepared, all_, all_.find(chosen.name).value());
+    return {chosen, std::move(record.recorded), record.thread};
   }
 
   static int onlyDiscarded(const instrumenter::Recording& recording) {
@@ -227,25 +243,23 @@ class DrawCheck {
     if (!findings_.attempt(&at, "choice", [&] { found = valuesAt(session_, probe); })) return;
     findings_.checkOutputs(&at, "choice", found.check);
     windows_.add(probe, {}, found);
-    for (const RecordedPixel& one : recorded_) {
-      const auto p = static_cast<std::size_t>(one.pixel.y) * static_cast<std::size_t>(found.width) +
-                     static_cast<std::size_t>(one.pixel.x);
+    for (const RecordedThread& one : recorded_) {
+      const auto place = found.find(one.chosen.name);
+      const bool reached = place && found.reachedAt(*place);
       const Value* recorded = lastChoice(one, probe);
       findings_.compared();
-      const bool same = (recorded != nullptr) == found.reachedAt(p) &&
-                        (recorded == nullptr || recorded->words == found.values.front().valueAt(p).words);
+      const bool same =
+          (recorded != nullptr) == reached &&
+          (recorded == nullptr || recorded->words == found.values.front().valueAt(*place).words);
       if (same) continue;
-      const auto text = [](bool there, const Value& value) {
-        return there ? formatValue(value) : std::string("not evaluated");
-      };
       findings_.fail(Kind::value, &at, "choice", "",
-                     where(one.pixel) + ": the operand is " +
-                         text(found.reachedAt(p), found.values.front().valueAt(p)) + ", recorded " +
-                         text(recorded != nullptr, recorded != nullptr ? *recorded : Value()));
+                     where(one.chosen.name) + ": the operand is " +
+                         (reached ? formatValue(found.values.front().valueAt(*place)) : "not evaluated") +
+                         ", recorded " + (recorded != nullptr ? formatValue(*recorded) : "not evaluated"));
     }
   }
 
-  static const Value* lastChoice(const RecordedPixel& one, const Probe& probe) {
+  static const Value* lastChoice(const RecordedThread& one, const Probe& probe) {
     const auto& records = one.run().records;
     for (auto record = records.rbegin(); record != records.rend(); ++record) {
       const auto& layout = one.recorded.layout.records[static_cast<std::size_t>(record->layout)];
@@ -267,12 +281,12 @@ class DrawCheck {
     findings_.checkOutputs(&at, "behind a call", found.check);
   }
 
-  // The iterations of a visit in the middle of those that the last recorded pixel makes; none if there is no
+  // The iterations of a visit in the middle of those that the last recorded thread makes; none if there is no
   // loop.
   std::optional<std::vector<int>> someIterations(const Probe& probe) const {
     std::vector<std::vector<int>> visits;
     if (recorded_.empty()) return std::nullopt;
-    const RecordedPixel& one = recorded_.back();
+    const RecordedThread& one = recorded_.back();
     forEachVisit(shader_, one.recorded.layout, one.run(), [&](const Visit& visit) {
       if (visit.statement == probe.statement && visit.when == probe.when) visits.push_back(visit.iterations);
     });
@@ -293,38 +307,37 @@ class DrawCheck {
     windows_.add(probe, watched, found);
     if (after && isForInit(shader_, at)) return;  // a recording has no record between init and condition
 
-    for (const RecordedPixel& one : recorded_) {
-      const auto p = static_cast<std::size_t>(one.pixel.y) * static_cast<std::size_t>(found.width) +
-                     static_cast<std::size_t>(one.pixel.x);
+    for (const RecordedThread& one : recorded_) {
+      const auto place = found.find(one.chosen.name);
       const auto visit =
           isForInit(shader_, at) ? std::nullopt : lastVisit(shader_, one.recorded.layout, one.run(), probe);
-      if (!isForInit(shader_, at) && visit.has_value() != found.reachedAt(p)) {
+      if (!isForInit(shader_, at) && visit.has_value() != (place && found.reachedAt(*place))) {
         findings_.fail(Kind::value, &at, plan, "",
-                       where(one.pixel) + ": " +
+                       where(one.chosen.name) + ": " +
                            (visit ? "the recording gets here, the probe does not"
                                   : "the probe gets here, the recording does not"));
         continue;
       }
       if (!visit) continue;
       std::size_t next = 0;
-      if (probe.outcome) compareOutcome(at, plan, one.pixel, found.values.at(next++).valueAt(p), *visit);
-      for (const Part& part : watched) {
-        comparePart(at, plan, one.pixel, part, found.values.at(next++).valueAt(p), *visit);
-      }
+      if (probe.outcome)
+        compareOutcome(at, plan, one.chosen.name, found.values.at(next++).valueAt(*place), *visit);
+      for (const Part& part : watched)
+        comparePart(at, plan, one.chosen.name, part, found.values.at(next++).valueAt(*place), *visit);
     }
   }
 
-  void compareOutcome(const Statement& at, const std::string& plan, const Pixel& pixel, const Value& found,
-                      const LastVisit& visit) {
+  void compareOutcome(const Statement& at, const std::string& plan, const ThreadName& thread,
+                      const Value& found, const LastVisit& visit) {
     if (!visit.outcome) return;
     findings_.compared();
     if (found.words == visit.outcome->words) return;
     findings_.fail(
         Kind::value, &at, plan, "",
-        where(pixel) + ": outcome " + formatValue(found) + ", recorded " + formatValue(*visit.outcome));
+        where(thread) + ": outcome " + formatValue(found) + ", recorded " + formatValue(*visit.outcome));
   }
 
-  void comparePart(const Statement& at, const std::string& plan, const Pixel& pixel, const Part& part,
+  void comparePart(const Statement& at, const std::string& plan, const ThreadName& thread, const Part& part,
                    const Value& found, const LastVisit& visit) {
     const auto known = visit.known.find(part.variable);
     if (known == visit.known.end()) return;
@@ -335,7 +348,7 @@ class DrawCheck {
     for (std::size_t i = 0; i < found.words.size(); ++i) {
       if (!known->second.defined[part.first_word + i] || found.words[i] == recorded.words[i]) continue;
       findings_.fail(Kind::value, &at, plan, part.expression,
-                     where(pixel) + ": " + formatValue(found) + " (" + hexWords(found.words) +
+                     where(thread) + ": " + formatValue(found) + " (" + hexWords(found.words) +
                          "), recorded " + formatValue(recorded) + " (" + hexWords(recorded.words) + ")");
       return;
     }
@@ -368,8 +381,9 @@ class DrawCheck {
   WindowCheck windows_;
   Clock::time_point deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                    std::chrono::duration<double>(options_.seconds_per_draw));
-  std::vector<Pixel> pixels_;
-  std::vector<RecordedPixel> recorded_;
+  ThreadValues all_;
+  std::vector<ChosenThread> chosen_;
+  std::vector<RecordedThread> recorded_;
   std::size_t turn_ = 0;
 };
 

@@ -5,8 +5,8 @@
 
 namespace shadestep::session {
 
-// The draw at which the session stands; its fragment shader can be captured. What it finds goes into the
-// report.
+// The draw at which the session stands; the shader of the selected stage can be captured. What it finds goes
+// into the report.
 void verifyThisDraw(Session&, const VerifyOptions&, VerifyReport&);
 
 }  // namespace shadestep::session

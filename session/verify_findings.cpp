@@ -4,11 +4,12 @@ namespace shadestep::session {
 
 void Findings::fail(VerifyFailure::Kind kind, const frontend::Statement* at, const std::string& plan,
                     const std::string& variable, const std::string& detail) {
-  std::uint64_t* counter[] = {&report_.compile_failed, &report_.output_mismatch, &report_.value_mismatch,
-                              &report_.state_leaks, &report_.crashes};
+  std::uint64_t* counter[] = {&counts_.compile_failed, &counts_.output_mismatch, &counts_.value_mismatch,
+                              &counts_.state_leaks, &counts_.crashes};
   ++*counter[static_cast<int>(kind)];
   if (report_.failures.size() >= VerifyReport::kMostFailures) return;
-  VerifyFailure failure{kind, session_.stop().frame, session_.stop().draw, 0, 0, plan, variable, detail};
+  VerifyFailure failure{
+      kind, session_.stage(), session_.stop().frame, session_.stop().draw, 0, 0, plan, variable, detail};
   if (at != nullptr) {
     failure.line = at->place.line;
     failure.column = at->place.column;

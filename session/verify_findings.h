@@ -9,11 +9,13 @@ namespace shadestep::session {
 
 class Findings {
  public:
-  Findings(Session& session, VerifyReport& report) : session_(session), report_(report) {}
+  // Of the selected stage.
+  Findings(Session& session, VerifyReport& report)
+      : session_(session), report_(report), counts_(report.stages[session.stage()]) {}
 
-  void skip(const std::string& reason) { ++report_.skipped[reason]; }
-  void site() { ++report_.sites; }
-  void compared() { ++report_.compared; }
+  void skip(const std::string& reason) { ++report_.skipped[{session_.stage(), reason}]; }
+  void site() { ++counts_.sites; }
+  void compared() { ++counts_.compared; }
   // `at`: nullptr for the whole draw.
   void fail(VerifyFailure::Kind, const frontend::Statement* at, const std::string& plan,
             const std::string& variable, const std::string& detail);
@@ -24,7 +26,7 @@ class Findings {
   template <class Pass>
   bool attempt(const frontend::Statement* at, const std::string& plan, Pass pass) {
     try {
-      ++report_.passes;
+      ++counts_.passes;
       pass();
       return true;
     } catch (const DriverRefusal& refusal) {
@@ -39,6 +41,7 @@ class Findings {
  private:
   Session& session_;
   VerifyReport& report_;
+  VerifyCounts& counts_;
 };
 
 }  // namespace shadestep::session

@@ -1,7 +1,7 @@
 #include "session/verify_measures.h"
 
 #include <algorithm>
-#include <map>
+#include <optional>
 
 #include "instrumenter/measures.h"
 #include "session/loops.h"
@@ -41,7 +41,7 @@ Event eventOf(const Statement& statement) {
   }
 }
 
-std::uint32_t records(const RecordedPixel& one, StatementId id, Event event) {
+std::uint32_t records(const RecordedThread& one, StatementId id, Event event) {
   std::uint32_t count = 0;
   for (const instrumenter::Record& record : one.run().records) {
     const auto& layout = one.recorded.layout.records[static_cast<std::size_t>(record.layout)];
@@ -50,40 +50,43 @@ std::uint32_t records(const RecordedPixel& one, StatementId id, Event event) {
   return count;
 }
 
-std::size_t index(const Pixel& pixel, int width) {
-  return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width) +
-         static_cast<std::size_t>(pixel.x);
-}
-
-void expect(Findings& findings, const Statement& at, const std::string& plan, const Pixel& pixel,
-            std::uint32_t counted, std::uint32_t recorded) {
+// `counted`: nothing where the pass does not show the thread.
+void expect(Findings& findings, const Statement& at, const std::string& plan, const RecordedThread& one,
+            std::optional<std::uint32_t> counted, std::uint32_t recorded) {
   findings.compared();
   if (counted == recorded) return;
-  findings.fail(
-      Kind::value, &at, plan, "",
-      where(pixel) + ": counted " + std::to_string(counted) + ", recorded " + std::to_string(recorded));
+  findings.fail(Kind::value, &at, plan, "",
+                where(one.chosen.name) + ": " +
+                    (counted ? "counted " + std::to_string(*counted) : "the pass does not show it") +
+                    ", recorded " + std::to_string(recorded));
 }
 
 }  // namespace
 
-void checkLoops(Session& session, Findings& findings, const std::vector<RecordedPixel>& recorded) {
-  const Shader& shader = session.shader(Stage::fragment);
+void checkLoops(Session& session, Findings& findings, const std::vector<RecordedThread>& recorded) {
+  const Shader& shader = session.shader();
   if (std::none_of(shader.statements.begin(), shader.statements.end(), isLoop)) return;
   LoopsReport report;
   if (!findings.attempt(nullptr, "loops", [&] { report = profileLoops(session); })) return;
   findings.checkOutputs(nullptr, "loops", report.check);
+  ThreadValues threads;
+  threads.width = report.width;
+  threads.height = report.height;
+  threads.marks = report.marks;
+  threads.identity = report.identity;
   for (const LoopReport& loop : report.loops) {
     const Statement& at = shader.statements[static_cast<std::size_t>(loop.statement)];
-    for (const RecordedPixel& one : recorded) {
-      expect(findings, at, "loops", one.pixel, loop.iterations.at(index(one.pixel, report.width)),
+    for (const RecordedThread& one : recorded) {
+      const auto place = threads.find(one.chosen.name);
+      expect(findings, at, "loops", one, place ? std::optional(loop.iterations.at(*place)) : std::nullopt,
              records(one, loop.statement, Event::iteration));
     }
   }
 }
 
-void checkCounts(Session& session, Findings& findings, const std::vector<RecordedPixel>& recorded,
+void checkCounts(Session& session, Findings& findings, const std::vector<RecordedThread>& recorded,
                  std::size_t most) {
-  const Shader& shader = session.shader(Stage::fragment);
+  const Shader& shader = session.shader();
   std::vector<StatementId> all;
   for (std::size_t id = 0; id < shader.statements.size(); ++id) {
     const Statement& at = shader.statements[id];
@@ -96,32 +99,32 @@ void checkCounts(Session& session, Findings& findings, const std::vector<Recorde
   for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(stride, 1)) chosen.push_back(all[i]);
   if (chosen.empty()) return;
 
-  Captured captured;
+  ThreadValues threads;
   if (!findings.attempt(nullptr, "count", [&] {
         std::vector<instrumenter::Counted> runs;
         for (const StatementId id : chosen) runs.push_back({instrumenter::Counted::Kind::runs, id});
         auto result = instrumenter::instrumentCount(shader, runs, session.target());
         if (const auto* failure = std::get_if<instrumenter::Failure>(&result))
           throw Error(Outcome::cannot_debug, failure->reason);
-        captured = session.capture(std::get<instrumenter::AttachmentShader>(result));
+        threads = onePass(session, std::get<instrumenter::AttachmentShader>(result));
       }))
     return;
-  findings.checkOutputs(nullptr, "count", captured.execution.check);
+  findings.checkOutputs(nullptr, "count", threads.check);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const instrumenter::Field& field = captured.layout.fields.at(i);
     const StatementId id = chosen[i];
     const Statement& at = shader.statements[static_cast<std::size_t>(id)];
-    for (const RecordedPixel& one : recorded) {
-      const auto words =
-          instrumenter::decode(captured.layout, field, captured.threads.at(one.pixel.x, one.pixel.y).data())
-              .words;
-      expect(findings, at, "count", one.pixel, words.at(0), records(one, id, eventOf(at)));
+    for (const RecordedThread& one : recorded) {
+      const auto place = threads.find(one.chosen.name);
+      expect(findings, at, "count", one,
+             place ? std::optional(*threads.values.at(i).at(*place)) : std::nullopt,
+             records(one, id, eventOf(at)));
     }
   }
 }
 
 void checkClock(Session& session, Findings& findings) {
-  const auto result = instrumenter::instrumentClock(session.shader(Stage::fragment), session.target());
+  if (session.stage() != Stage::fragment) return;
+  const auto result = instrumenter::instrumentClock(session.shader(), session.target());
   const auto* shader = std::get_if<instrumenter::AttachmentShader>(&result);
   if (shader == nullptr) return;
   findings.attempt(nullptr, "clock", [&] {

@@ -9,10 +9,10 @@
 namespace shadestep::session {
 
 // Iterations of every loop, as `loops` counts them.
-void checkLoops(Session&, Findings&, const std::vector<RecordedPixel>&);
+void checkLoops(Session&, Findings&, const std::vector<RecordedThread>&);
 // How often statements run, as `profile` counts them: at most `most` of them, spread over the shader.
-void checkCounts(Session&, Findings&, const std::vector<RecordedPixel>&, std::size_t most);
-// The clock's draw leaves the outputs as they were; where there is no shader clock, nothing.
+void checkCounts(Session&, Findings&, const std::vector<RecordedThread>&, std::size_t most);
+// The clock's draw leaves the outputs as they were; where there is no shader clock, nothing. Of fragments.
 void checkClock(Session&, Findings&);
 
 }  // namespace shadestep::session

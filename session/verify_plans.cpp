@@ -16,6 +16,8 @@ using instrumenter::Probe;
 using Kind = VerifyFailure::Kind;
 
 constexpr std::size_t kProbesAtOnce = 4;
+constexpr int kListedWords = 64;  // of a thread of another stage, by lists, which have room for more
+constexpr int kNumbers = 8;       // words of its mark and of what tells who it is
 
 const Statement& statementOf(const Shader& shader, frontend::StatementId id) {
   return shader.statements[static_cast<std::size_t>(id)];
@@ -24,8 +26,16 @@ const Statement& statementOf(const Shader& shader, frontend::StatementId id) {
 // Words that one window's probe may take; below GLSL 1.30 most components take two channels.
 int roomFor(Session& session, const Probe& probe) {
   const instrumenter::Target target = session.target();
-  const int channels = 4 * (target.max_draw_buffers - target.used_draw_buffers) - 1;
-  return (session.shader(Stage::fragment).version < 130 ? channels / 2 : channels) - (probe.outcome ? 1 : 0);
+  const bool by_lists = session.stage() != Stage::fragment && target.feedback_components == 0;
+  const int channels = session.stage() == Stage::fragment
+                           ? 4 * (target.max_draw_buffers - target.used_draw_buffers) - 1
+                           : (by_lists ? kListedWords : target.feedback_components) - kNumbers;
+  return (session.shader().version < 130 ? channels / 2 : channels) - (probe.outcome ? 1 : 0);
+}
+
+bool sameThreads(const std::vector<WatchedValues>& some, const std::vector<WatchedValues>& others) {
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                    [](const auto& one, const auto& other) { return one.words == other.words; });
 }
 
 }  // namespace
@@ -46,6 +56,10 @@ void WindowCheck::add(const Probe& probe, const std::vector<Part>& parts, const 
   }
   item.found = found;
   item.found.values.resize(item.parts.size() + (probe.outcome ? 1 : 0));
+  if (session_.stage() == Stage::vertex) {
+    // Of vertices that agree in what is left of them, one stays.
+    nameThreads(item.found, Stage::vertex, session_.stop());
+  }
   waiting_.push_back(std::move(item));
   if (waiting_.size() >= kProbesAtOnce) finish();
 }
@@ -62,11 +76,11 @@ void WindowCheck::finish() {
 }
 
 void WindowCheck::compare(Window& window, const Item& item) {
-  const Shader& shader = session_.shader(Stage::fragment);
+  const Shader& shader = session_.shader();
   const Statement& at = statementOf(shader, item.probe.statement);
   const ThreadValues again = window.valuesAt(item.probe);
   findings_.checkOutputs(&at, "window", again.check);
-  if (again.marks != item.found.marks) {
+  if (again.marks != item.found.marks || !sameThreads(again.identity, item.found.identity)) {
     findings_.fail(Kind::value, &at, "window", "", "other threads get here than by a single probe");
     return;
   }
@@ -84,12 +98,10 @@ void WindowCheck::compare(Window& window, const Item& item) {
     findings_.compared();
     if (differing == 0) continue;
     if (i >= first && mayBeUndefined(shader, item.parts[i - first].variable)) continue;
-    const int width = std::max(again.width, 1);
-    const Pixel pixel{static_cast<int>(example) % width, static_cast<int>(example) / width, false};
     findings_.fail(Kind::value, &at, "window", one.name,
                    std::to_string(differing) + " threads differ from a single probe, such as " +
-                       where(pixel) + ": " + formatValue(other.valueAt(example)) + " instead of " +
-                       formatValue(one.valueAt(example)));
+                       where(nameOf(again, example)) + ": " + formatValue(other.valueAt(example)) +
+                       " instead of " + formatValue(one.valueAt(example)));
   }
 }
 
@@ -107,7 +119,7 @@ std::vector<Step> ownSteps(const std::vector<Step>& steps) {
   return own;
 }
 
-void compareChanges(const Shader& shader, Findings& findings, const Pixel& pixel, const Step& redrawn,
+void compareChanges(const Shader& shader, Findings& findings, const ThreadName& thread, const Step& redrawn,
                     const Step& recorded) {
   const Statement& at = statementOf(shader, redrawn.statement);
   for (const NamedValue& value : redrawn.changed) {
@@ -120,18 +132,25 @@ void compareChanges(const Shader& shader, Findings& findings, const Pixel& pixel
       continue;
     findings.compared();
     if (value.value == other->value) continue;
-    findings.fail(Kind::value, &at, "redraws", value.name,
-                  where(pixel) + ": " + formatValue(value.value) + ", recorded " + formatValue(other->value));
+    findings.fail(
+        Kind::value, &at, "redraws", value.name,
+        where(thread) + ": " + formatValue(value.value) + ", recorded " + formatValue(other->value));
   }
+}
+
+ThreadRun followByProbes(Session& session, const ThreadName& thread, std::size_t most_steps) {
+  if (session.stage() != Stage::fragment) return followThreadByProbes(session, thread, most_steps);
+  return followPixelByProbes(session, thread[0].second, thread[1].second, most_steps);
 }
 
 }  // namespace
 
-void checkRedrawnRun(Session& session, Findings& findings, const RecordedPixel& one, std::size_t most_steps) {
-  const Shader& shader = session.shader(Stage::fragment);
+void checkRedrawnRun(Session& session, Findings& findings, const RecordedThread& one,
+                     std::size_t most_steps) {
+  const Shader& shader = session.shader();
   ThreadRun run;
   if (!findings.attempt(nullptr, "redraws",
-                        [&] { run = followPixelByProbes(session, one.pixel.x, one.pixel.y, most_steps); }))
+                        [&] { run = followByProbes(session, one.chosen.name, most_steps); }))
     return;
   findings.checkOutputs(nullptr, "redraws", run.check);
   const std::vector<Step> redrawn = ownSteps(run.steps);
@@ -142,16 +161,16 @@ void checkRedrawnRun(Session& session, Findings& findings, const RecordedPixel& 
     if (redrawn[i].statement != recorded[i].statement || redrawn[i].iteration != recorded[i].iteration ||
         redrawn[i].outcome != recorded[i].outcome) {
       return findings.fail(Kind::value, &at, "redraws", "",
-                           where(one.pixel) + ": step " + std::to_string(i) + " of main is \"" +
+                           where(one.chosen.name) + ": step " + std::to_string(i) + " of main is \"" +
                                redrawn[i].outcome + "\" here, recorded at line " +
                                std::to_string(recorded[i].line) + " \"" + recorded[i].outcome + "\"");
     }
-    compareChanges(shader, findings, one.pixel, redrawn[i], recorded[i]);
+    compareChanges(shader, findings, one.chosen.name, redrawn[i], recorded[i]);
   }
   if ((run.complete && redrawn.size() != recorded.size()) || redrawn.size() > recorded.size()) {
     findings.fail(Kind::value, nullptr, "redraws", "",
-                  where(one.pixel) + ": " + std::to_string(redrawn.size()) + " steps of main, recorded " +
-                      std::to_string(recorded.size()));
+                  where(one.chosen.name) + ": " + std::to_string(redrawn.size()) +
+                      " steps of main, recorded " + std::to_string(recorded.size()));
   }
 }
 

@@ -36,8 +36,8 @@ class WindowCheck {
   std::vector<Item> waiting_;
 };
 
-// Follows the pixel's thread by at most `most_steps` redraws and compares what main did with the recorded
+// Follows the thread by at most `most_steps` redraws and compares what main did with the recorded
 // steps.
-void checkRedrawnRun(Session&, Findings&, const RecordedPixel&, std::size_t most_steps);
+void checkRedrawnRun(Session&, Findings&, const RecordedThread&, std::size_t most_steps);
 
 }  // namespace shadestep::session

@@ -1,6 +1,8 @@
 #include "session/verify_samples.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <random>
 #include <set>
 
@@ -15,7 +17,7 @@ using frontend::Storage;
 using frontend::VariableId;
 using instrumenter::Probe;
 
-constexpr std::uint32_t kRandomSeed = 7;  // for the choice of pixels: the same in every run
+constexpr std::uint32_t kRandomSeed = 7;  // for the choice of threads: the same in every run
 constexpr int kPartWords = 16;            // wider values are looked at in parts
 
 // The value in parts of at most kPartWords, in canonical order.
@@ -73,45 +75,98 @@ std::vector<VariableId> inScope(const Shader& shader, const Probe& probe) {
   return result;
 }
 
-}  // namespace
-
-std::string where(const Pixel& pixel) {
-  return "pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y);
+bool isNumber(const WatchedValues& part) {
+  return part.type.basic == frontend::Basic::int_;
 }
 
-std::vector<Pixel> choosePixels(const ThreadValues& cover, int most) {
-  std::vector<std::size_t> covered;
+// Whether the numbers of the thread are no others'.
+std::vector<std::size_t> aloneAmong(const ThreadValues& threads, const std::vector<std::size_t>& all) {
+  const auto numbers = [&](std::size_t p) {
+    std::vector<std::uint32_t> words;
+    for (const WatchedValues& part : threads.identity)
+      if (part.name != "repeat") words.push_back(*part.at(p));
+    return words;
+  };
+  std::map<std::vector<std::uint32_t>, int> count;
+  for (const std::size_t p : all) ++count[numbers(p)];
+  std::vector<std::size_t> alone;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(alone),
+               [&](std::size_t p) { return count[numbers(p)] == 1; });
+  return alone;
+}
+
+}  // namespace
+
+// Those that coordinates tell apart are counted among those with the same numbers.
+ThreadName nameOf(const ThreadValues& threads, std::size_t thread) {
+  if (threads.identity.empty()) {
+    const auto width = static_cast<std::size_t>(threads.width);
+    return pixelName(static_cast<int>(thread % width), static_cast<int>(thread / width));
+  }
+  ThreadName name;
+  bool counted = false;
+  for (const WatchedValues& part : threads.identity) {
+    if (isNumber(part))
+      name.emplace_back(part.name, static_cast<std::int32_t>(*part.at(thread)));
+    else
+      counted = true;
+  }
+  if (!counted) return name;
+  std::int32_t before = 0;
+  for (std::size_t p = 0; p < thread; ++p) {
+    const bool same = std::all_of(threads.identity.begin(), threads.identity.end(), [&](const auto& part) {
+      return !isNumber(part) || *part.at(p) == *part.at(thread);
+    });
+    before += threads.marks[p] != 0 && same ? 1 : 0;
+  }
+  name.emplace_back("vertex", before);
+  return name;
+}
+
+std::string where(const ThreadName& name) {
+  if (name.size() == 2 && name.front().first == "x")
+    return "pixel " + std::to_string(name[0].second) + "," + std::to_string(name[1].second);
+  std::string text;
+  for (const auto& [part, number] : name)
+    text += (text.empty() ? "" : ", ") + part + " " + std::to_string(number);
+  return text;
+}
+
+std::vector<ChosenThread> chooseThreads(const ThreadValues& all, int most) {
+  std::vector<std::size_t> there;
+  for (std::size_t p = 0; p < all.marks.size(); ++p)
+    if (all.marks[p] != 0) there.push_back(p);
+  if (!all.identity.empty()) {
+    if (auto alone = aloneAmong(all, there); !alone.empty()) there = std::move(alone);
+  }
+  if (there.empty()) return {};
+  const auto width = static_cast<std::size_t>(all.width);
   double x = 0;
   double y = 0;
-  const auto width = static_cast<std::size_t>(cover.width);
-  for (std::size_t p = 0; p < cover.marks.size(); ++p) {
-    if (cover.marks[p] == 0) continue;
-    covered.push_back(p);
+  for (const std::size_t p : there) {
     x += static_cast<double>(p % width);
     y += static_cast<double>(p / width);
   }
-  if (covered.empty()) return {};
-  x /= static_cast<double>(covered.size());
-  y /= static_cast<double>(covered.size());
+  x /= static_cast<double>(there.size());
+  y /= static_cast<double>(there.size());
   const auto distance = [&](std::size_t p) {
     const double dx = static_cast<double>(p % width) - x;
     const double dy = static_cast<double>(p / width) - y;
     return dx * dx + dy * dy;
   };
-  std::set<std::size_t> chosen = {covered.front(), covered.back()};
-  chosen.insert(*std::min_element(covered.begin(), covered.end(),
+  std::set<std::size_t> chosen = {there.front(), there.back()};
+  chosen.insert(*std::min_element(there.begin(), there.end(),
                                   [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); }));
   std::mt19937 random(kRandomSeed);
-  const std::size_t wanted = std::min(covered.size(), static_cast<std::size_t>(std::max(most, 1)));
-  while (chosen.size() < wanted) chosen.insert(covered[random() % covered.size()]);
+  const std::size_t wanted = std::min(there.size(), static_cast<std::size_t>(std::max(most, 1)));
+  while (chosen.size() < wanted) chosen.insert(there[random() % there.size()]);
 
-  std::vector<Pixel> pixels;
+  std::vector<ChosenThread> threads;
   for (const std::size_t p : chosen) {
-    if (pixels.size() < wanted)
-      pixels.push_back({static_cast<int>(p % width), static_cast<int>(p / width),
-                        (cover.marks[p] & instrumenter::kDiscarded) != 0});
+    if (threads.size() == wanted) break;
+    threads.push_back({nameOf(all, p), (all.marks[p] & instrumenter::kDiscarded) != 0});
   }
-  return pixels;
+  return threads;
 }
 
 std::vector<Part> partsInScope(const Shader& shader, const Probe& probe) {

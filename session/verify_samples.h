@@ -1,4 +1,4 @@
-// Which pixels and which values `verify` looks at.
+// Which threads and which values `verify` looks at.
 #pragma once
 
 #include <string>
@@ -8,25 +8,30 @@
 
 namespace shadestep::session {
 
-struct Pixel {
-  int x = 0, y = 0;
-  bool discarded = false;  // it shows no thread, and what is looked at there is one that ends in a discard
+struct ChosenThread {
+  ThreadName name;
+  bool discarded =
+      false;  // the pixel shows no thread, and what is looked at there is one that ends in a discard
 };
-std::string where(const Pixel&);  // "pixel 3,4"
+std::string where(const ThreadName&);  // "pixel 3,4", "vertex 3, instance 0"
 
-// A pixel's visible thread, recorded.
-struct RecordedPixel {
-  Pixel pixel;
+// The name of the thread at this place.
+ThreadName nameOf(const ThreadValues&, std::size_t thread);
+
+// A thread, recorded.
+struct RecordedThread {
+  ChosenThread chosen;
   Session::Recorded recorded;
-  int thread = -1;  // that the pixel shows
+  int thread = -1;  // of the recorded ones: the one that the pixel shows, or that has the name
 
   const instrumenter::ThreadRecording& run() const {
     return recorded.recording.threads[static_cast<std::size_t>(thread)];
   }
 };
 
-// Spread over what the draw covers: its first and last pixel, the one nearest to its centre, random ones.
-std::vector<Pixel> choosePixels(const ThreadValues& cover, int most);
+// Spread over all of them: the first and the last, the one nearest to their centre, random ones. Threads that
+// only their order tells apart from others are left out, as long as there are others.
+std::vector<ChosenThread> chooseThreads(const ThreadValues& all, int most);
 
 // A variable, or a part of one, as it is watched.
 struct Part {

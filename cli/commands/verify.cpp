@@ -21,6 +21,7 @@ struct Options {
 Json toJson(const session::VerifyFailure& failure) {
   Json json;
   json["kind"] = session::kindName(failure.kind);
+  json["stage"] = failure.stage ? Json(session::stageName(*failure.stage)) : Json(nullptr);
   json["frame"] = failure.frame;
   json["draw"] = failure.draw;
   json["line"] = failure.line;
@@ -31,22 +32,32 @@ Json toJson(const session::VerifyFailure& failure) {
   return json;
 }
 
+Json toJson(const session::VerifyCounts& counts) {
+  Json json;
+  json["shaders"] = counts.shaders;
+  json["sites"] = counts.sites;
+  json["passes"] = counts.passes;
+  json["values_compared"] = counts.compared;
+  json["analysis_failed"] = counts.analysis_failed;
+  json["compile_failed"] = counts.compile_failed;
+  json["output_mismatch"] = counts.output_mismatch;
+  json["value_mismatch"] = counts.value_mismatch;
+  json["state_leaks"] = counts.state_leaks;
+  json["crashes"] = counts.crashes;
+  return json;
+}
+
 Json toJson(const session::VerifyReport& report) {
   Json json;
   json["draws"] = report.draws;
-  json["shaders"] = report.shaders;
-  json["sites"] = report.sites;
-  json["passes"] = report.passes;
-  json["values_compared"] = report.compared;
-  json["analysis_failed"] = report.analysis_failed;
-  json["compile_failed"] = report.compile_failed;
-  json["output_mismatch"] = report.output_mismatch;
-  json["value_mismatch"] = report.value_mismatch;
-  json["state_leaks"] = report.state_leaks;
-  json["crashes"] = report.crashes;
+  json.update(toJson(report.total()));
+  json["stages"] = Json::object();
+  for (const auto& [stage, counts] : report.stages)
+    json["stages"][session::stageName(stage)] = toJson(counts);
   json["skipped"] = Json::array();
-  for (const auto& [reason, count] : report.skipped) {
-    json["skipped"].push_back({{"reason", reason}, {"count", count}});
+  for (const auto& [what, count] : report.skipped) {
+    json["skipped"].push_back(
+        {{"stage", session::stageName(what.first)}, {"reason", what.second}, {"count", count}});
   }
   json["failures"] = Json::array();
   for (const auto& failure : report.failures) json["failures"].push_back(toJson(failure));
@@ -54,38 +65,32 @@ Json toJson(const session::VerifyReport& report) {
 }
 
 void printText(const session::VerifyReport& report, double seconds) {
-  std::cout << report.draws << " draws, " << report.shaders << " fragment shaders, " << report.sites
-            << " sites, " << withThousands(report.passes) << " passes, " << withThousands(report.compared)
-            << " values compared, " << static_cast<int>(seconds + 0.5) << " s\n"
-            << "  instrumented shaders that do not compile  " << report.compile_failed << "\n"
-            << "  passes with other outputs                 " << report.output_mismatch << "\n"
-            << "  values that differ between plans          " << report.value_mismatch << "\n"
-            << "  state left changed                        " << report.state_leaks << "\n"
-            << "  crashes of the program                    " << report.crashes << "\n";
-  for (const auto& [reason, count] : report.skipped)
-    std::cout << "  skipped " << count << " x: " << reason << "\n";
+  std::cout << report.draws << " draws, " << static_cast<int>(seconds + 0.5) << " s\n";
+  for (const auto& [stage, counts] : report.stages) {
+    std::cout << "  " << session::stageName(stage) << ": " << counts.shaders << " shaders, " << counts.sites
+              << " sites, " << withThousands(counts.passes) << " passes, " << withThousands(counts.compared)
+              << " values compared\n";
+  }
+  const session::VerifyCounts total = report.total();
+  std::cout << "  instrumented shaders that do not compile  " << total.compile_failed << "\n"
+            << "  passes with other outputs                 " << total.output_mismatch << "\n"
+            << "  values that differ between plans          " << total.value_mismatch << "\n"
+            << "  state left changed                        " << total.state_leaks << "\n"
+            << "  crashes of the program                    " << total.crashes << "\n";
+  for (const auto& [what, count] : report.skipped)
+    std::cout << "  skipped " << count << " x (" << session::stageName(what.first) << "): " << what.second
+              << "\n";
 }
 
 void printFailures(const session::VerifyReport& report) {
   for (const auto& failure : report.failures) {
     std::cerr << "shadestep: " << session::kindName(failure.kind) << ": frame " << failure.frame << ", draw "
               << failure.draw;
+    if (failure.stage) std::cerr << ", " << session::stageName(*failure.stage) << " shader";
     if (failure.line > 0) std::cerr << ", line " << failure.line << ":" << failure.column;
     std::cerr << (failure.plan.empty() ? "" : ", " + failure.plan)
               << (failure.variable.empty() ? "" : ", " + failure.variable) << ": " << failure.detail << "\n";
   }
-}
-
-// "A" or "A..B"
-std::pair<std::uint64_t, std::uint64_t> frameRange(std::string range) {
-  const std::string given = range;
-  if (const auto dots = range.find(".."); dots != std::string::npos) range.replace(dots, 2, ",");
-  const std::vector<int> numbers = parseIntegers(range, "--frames", 1, 2);
-  if (numbers.front() < 0 || numbers.back() < numbers.front()) {
-    throw session::Error(session::Outcome::usage,
-                         "--frames takes A..B with 0 <= A <= B, not '" + given + "'");
-  }
-  return {static_cast<std::uint64_t>(numbers.front()), static_cast<std::uint64_t>(numbers.back())};
 }
 
 // What the program's target held at the last draw that was looked at.
@@ -105,8 +110,7 @@ Json sameWithoutUs(const Common& common, const LastDraw& last) {
 }
 
 int run(const Common& common, const Options& options) {
-  const auto [first, last] =
-      options.frames.empty() ? std::pair(common.frame, common.frame) : frameRange(options.frames);
+  const auto [first, last] = frameRange(common, options.frames);
   const auto start = std::chrono::steady_clock::now();
   session::Session session(common.launchOptions());
   session::Verifier verifier(session, options.verify);
@@ -150,11 +154,14 @@ void addVerify(CLI::App& app, Common& common, Action& action) {
       "verify", "step through every site of every selected draw by every plan, and check the results");
   auto options = std::make_shared<Options>();
   addCommonOptions(*command, common);
-  command->add_option("--frame", common.frame, "the frame, 0-based")->type_name("N");
-  command->add_option("--frames", options->frames, "frames A to B (default 0..0)")->type_name("A..B");
+  CLI::Option* stage =
+      command->add_option("--stage", common.stage, "this stage only (default: all that a draw has)");
+  stage->type_name("STAGE");
+  addFrameOptions(*command, common, options->frames);
   command->add_option("--draw", options->draw, "this draw of each frame only (default: all)")->type_name("N");
   command
-      ->add_option("--pixels", options->verify.pixels, "pixels that are recorded and compared in each draw")
+      ->add_option("--pixels,--threads", options->verify.threads,
+                   "pixels, or threads of other stages, that are recorded and compared")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -173,8 +180,12 @@ void addVerify(CLI::App& app, Common& common, Action& action) {
   command->add_flag("--twice", options->twice,
                     "run the program once more without looking at its draws, and compare what it has drawn");
   command->add_flag("--continue", options->keep_running, "then let the program run to its own end");
-  command->callback(
-      [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });
+  command->callback([&common, &action, options, stage] {
+    action = [&common, options, stage] {
+      if (!stage->empty()) options->verify.stage = selectedStage(common);
+      return run(common, *options);
+    };
+  });
 }
 
 }  // namespace shadestep::cli

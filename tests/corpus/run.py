@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Runs `shadestep verify` on piglit's shader tests and compares each test's own verdict with and without it.
 
-    scripts/corpus [TEST...] [--list FILE] [--sample N] [--minutes M] [--jobs 2] [--timeout S] [--budget S] [--out DIR]
+    scripts/corpus [TEST...] [--list FILE] [--stage S] [--sample N] [--minutes M] [--jobs 2] [--timeout S] [--budget S]
+                   [--out DIR]
 
 TEST: paths below piglit's directory (tests/spec/..., generated_tests/spec/...), or patterns of such paths; a
 directory stands for all .shader_test files below it: 'tests/spec/glsl-[1-4].[0-9]*' is what every version of GLSL has.
-Default: the fixed list tests/corpus/list-300.txt. Writes results.jsonl (a line a test, with every failure) and
+Default: the fixed list tests/corpus/list-300.txt. --stage vertex|tess-control|tess-eval|geometry|fragment|compute|all says
+which shaders are looked at (default: fragment). Writes results.jsonl (a line a test, with every failure) and
 table.md to --out (build/corpus), and prints the table. Exit status: 0 if nothing failed, 1 if something did,
 77 if piglit is not installed.
 """
@@ -38,8 +40,9 @@ def check(test: str, root: Path, options: argparse.Namespace) -> dict:
     status, out, err = piglit.run(command, options.timeout)
     entry["bare"] = "timeout" if status is None else piglit.result(out + err)
     if entry["bare"] not in ("skip", "timeout"):
-        verify = [str(options.shadestep), "verify", "--json", "--continue", "--quiet", "--budget", str(options.budget),
-                  "--timeout", str(int(options.timeout)), "--", *command]
+        stage = [] if options.stage == "all" else ["--stage", options.stage]
+        verify = [str(options.shadestep), "verify", "--json", "--continue", "--quiet", *stage,
+                  "--budget", str(options.budget), "--timeout", str(int(options.timeout)), "--", *command]
         status, out, err = piglit.run(verify, options.timeout + 20)
         entry["verified"] = "timeout" if status is None else piglit.result(err)
         entry["status"] = status
@@ -49,7 +52,7 @@ def check(test: str, root: Path, options: argparse.Namespace) -> dict:
             entry["report"] = None
             entry["message"] = err.strip().splitlines()[-1:]
     entry["seconds"] = round(time.monotonic() - start, 2)
-    entry["repeat"] = " ".join(["PIGLIT_PLATFORM=surfaceless_egl", "shadestep", "verify", "--", *command])
+    entry["repeat"] = " ".join(["PIGLIT_PLATFORM=surfaceless_egl", "shadestep", "verify", *([] if options.stage == "all" else ["--stage", options.stage]), "--", *command])
     return entry
 
 
@@ -136,12 +139,40 @@ def table(entries: list[dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def table_of_stages(entries: list[dict]) -> str:
+    """A row a stage and directory, as Markdown. A test counts where it has a shader of the stage."""
+    header = ["stage", "directory", "tests", "shaders", "analysable", "sites", "values compared", "compile failures",
+              "output mismatches", "value mismatches", "state leaks", "the driver's own"]
+    rows: dict[tuple[str, str], collections.Counter] = collections.defaultdict(collections.Counter)
+    for entry in entries:
+        for stage, counts in ((entry.get("report") or {}).get("stages") or {}).items():
+            if counts["shaders"] + counts["analysis_failed"] == 0:
+                continue
+            for name in (entry["directory"], "all"):
+                row = rows[stage, name]
+                row["tests"] += 1
+                row["shaders"] += counts["shaders"]
+                row["refused"] += counts["analysis_failed"]
+                row["sites"] += counts["sites"]
+                row["values compared"] += counts["values_compared"]
+                for column, key in zip(header[7:11], FAILURES):
+                    excused = entry["undefined"] and key in ("output_mismatch", "value_mismatch")
+                    row["the driver's own" if excused else column] += counts[key]
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    for stage, name in sorted(rows, key=lambda one: (one[0], one[1] == "all", one[1])):
+        row = rows[stage, name]
+        share = f"{100 * row['shaders'] / (row['shaders'] + row['refused']):.1f} %"
+        cells = [share if column == "analysable" else str(row[column]) for column in header[2:]]
+        lines.append("| " + " | ".join([stage, name, *cells]) + " |")
+    return "\n".join(lines) + "\n"
+
+
 def skipped(entries: list[dict]) -> str:
     """Why draws, plans and values were left out, as Markdown."""
     reasons: collections.Counter = collections.Counter()
     for entry in entries:
         for one in (entry.get("report") or {}).get("skipped", []):
-            reasons[one["reason"].splitlines()[0][:160]] += one["count"]
+            reasons[f"{one['stage']}: {one['reason'].splitlines()[0][:160]}"] += one["count"]
     return "\n".join(["| skipped | reason |", "|---|---|"] + [f"| {n} | {why} |" for why, n in reasons.most_common()]) + "\n"
 
 
@@ -162,6 +193,7 @@ def select(root: Path, options: argparse.Namespace) -> list[str]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tests", nargs="*", metavar="TEST")
+    parser.add_argument("--stage", default="fragment", metavar="S")
     parser.add_argument("--list", type=Path, default=FOLDER / "list-300.txt")
     parser.add_argument("--sample", type=int, help="only N of them, chosen by --seed")
     parser.add_argument("--seed", type=int, default=1)
@@ -209,7 +241,8 @@ def main() -> int:
     minutes = (time.monotonic() - start) / 60
     version = subprocess.run([options.shadestep, "--version"], capture_output=True, text=True).stdout.strip()
     summary = (f"{version}; {len(entries)} tests, {bad} with problems, {minutes:.1f} minutes with {options.jobs} jobs.\n\n"
-               + table(entries) + "\n" + skipped(entries))
+               + table(entries) + "\n" + ("" if options.stage == "fragment" else table_of_stages(entries) + "\n")
+               + skipped(entries))
     (options.out / "table.md").write_text(summary)
     print(summary)
     return 1 if bad else 0

@@ -22,7 +22,9 @@ TEST(Verify, FindsNothingWrongWithTheRaycaster) {
   const Json report = finished.json();
   expectNothingWrong(report);
   EXPECT_EQ(report.at("draws"), 1);
-  EXPECT_EQ(report.at("shaders"), 1);
+  EXPECT_EQ(report.at("shaders"), 2) << "its vertex shader, too";
+  EXPECT_EQ(report.at("stages").at("vertex").at("shaders"), 1);
+  EXPECT_EQ(report.at("stages").at("fragment").at("shaders"), 1);
   EXPECT_GT(report.at("sites"), 20);
   EXPECT_GT(report.at("passes"), report.at("sites")) << "before and after";
   EXPECT_GT(report.at("values_compared"), 1000);
@@ -41,6 +43,39 @@ TEST(Verify, LetsTheProgramRunToItsEndAndTellsItsStatus) {
     EXPECT_EQ(report.at("program_status"), 0) << name;
     EXPECT_GT(report.at("values_compared"), 0) << name;
   }
+}
+
+TEST(Verify, LooksAtEveryStageThatADrawHas) {
+  const Scratch scratch;
+  const Finished finished = scratch.shadestep({"verify", "--json", "--continue", "--draws-per-shader", "9"},
+                                              {binary("programs/stages")});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  const Json report = finished.json();
+  expectNothingWrong(report);
+  EXPECT_EQ(report.at("program_status"), 0) << "its dispatches ran once each";
+  std::uint64_t sites = 0;
+  for (const char* stage : {"vertex", "tess-control", "tess-eval", "geometry", "fragment", "compute"}) {
+    const Json& counts = report.at("stages").at(stage);
+    EXPECT_GE(counts.at("shaders"), 1) << stage;
+    EXPECT_GE(counts.at("sites"), 1) << stage;
+    EXPECT_GE(counts.at("values_compared"), 1) << stage;
+    sites += counts.at("sites").get<std::uint64_t>();
+  }
+  EXPECT_EQ(report.at("sites"), sites);
+}
+
+TEST(Verify, LooksAtOneStageWhereOneIsAskedFor) {
+  const Scratch scratch;
+  const Finished one = scratch.shadestep({"verify", "--json", "--draw", "2", "--stage", "geometry"},
+                                         {binary("programs/stages")});
+  EXPECT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(one.json().at("shaders"), 1);
+  EXPECT_GE(one.json().at("stages").at("geometry").at("values_compared"), 1);
+  const Finished none = scratch.shadestep({"verify", "--json", "--draw", "2", "--stage", "compute"},
+                                          {binary("programs/stages")});
+  EXPECT_EQ(none.status, 0) << none.err;
+  EXPECT_EQ(none.json().at("skipped")[0].at("stage"), "compute");
+  EXPECT_EQ(scratch.shadestep({"verify", "--stage", "pixel"}, {binary("programs/stages")}).status, 2);
 }
 
 TEST(Verify, SaysWhyADrawIsLeftOut) {
