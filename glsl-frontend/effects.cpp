@@ -43,6 +43,10 @@ class Combiner {
     shader_.functions = std::move(skeleton_.functions);
     nameTypes();
     collectAccesses();
+    for (Variable& variable : shader_.variables) {
+      if (variable.storage == Storage::builtin && (variable.name == "gl_in" || variable.name == "gl_out"))
+        keepNamedMembers(variable.type);
+    }
     collectCalls();
     functionEffects();
     for (Statement& statement : shader_.statements) statementEffects(statement);
@@ -65,6 +69,20 @@ class Combiner {
         variable.type = global->second;
       }
     }
+  }
+
+  // glslang gives the built-in blocks all members of all profiles: of those that the shader does not name,
+  // only gl_Position is sure to be there.
+  void keepNamedMembers(Type& block) const {
+    if (!block.members) return;
+    auto kept = std::make_shared<StructType>();
+    kept->name = block.members->name;
+    for (const Member& member : block.members->members) {
+      const bool named = std::any_of(shader_.tokens.begin(), shader_.tokens.end(),
+                                     [&](const Token& token) { return token.text == member.name; });
+      if (named || member.name == "gl_Position") kept->members.push_back(member);
+    }
+    block.members = std::move(kept);
   }
 
   void collectAccesses() {

@@ -3,6 +3,7 @@
 
 #include "session/session_state.h"
 #include "session/thread_order.h"
+#include "session/values.h"
 
 namespace shadestep::session {
 namespace {
@@ -17,8 +18,8 @@ const char* const kOnlyPoints =
     "leave "
     "it by transform feedback alone): what it gives to the next stage is not compared";
 
-bool isDouble(const instrumenter::FeedbackOutput& output) {
-  return output.type.basic == frontend::Basic::double_;
+bool hasWideComponents(const instrumenter::FeedbackOutput& output) {
+  return wordsPerComponent(output.type.basic) == 2;
 }
 
 // The stage whose outputs a replay leaves: a control stage runs with its evaluation stage.
@@ -60,12 +61,12 @@ void sortByIdentity(ThreadWords& threads, const AttachmentLayout& layout, Stage 
 
 }  // namespace
 
-// Doubles first, which transform feedback wants at even offsets.
+// Those of 64 bits first, which transform feedback wants at even offsets.
 ComparedOutputs comparedOutputs(const frontend::Shader& last, int components) {
   ComparedOutputs compared;
   std::vector<instrumenter::FeedbackOutput> outputs = instrumenter::feedbackOutputs(last);
-  std::stable_partition(outputs.begin(), outputs.end(), isDouble);
-  bool doubles = false;
+  std::stable_partition(outputs.begin(), outputs.end(), hasWideComponents);
+  bool wide = false;
   for (const instrumenter::FeedbackOutput& output : outputs) {
     const int words = frontend::wordCount(output.type);
     if (words == 0 || compared.words + words + 1 > components - kLeastRoom) {
@@ -74,9 +75,9 @@ ComparedOutputs comparedOutputs(const frontend::Shader& last, int components) {
     }
     compared.names.push_back(output.name);
     compared.words += words;
-    doubles = doubles || isDouble(output);
+    wide = wide || hasWideComponents(output);
   }
-  if (doubles && compared.words % 2 != 0) {
+  if (wide && compared.words % 2 != 0) {
     compared.names.emplace_back("gl_SkipComponents1");
     ++compared.words;
   }

@@ -6,8 +6,8 @@
 namespace shadestep::instrumenter {
 namespace {
 
-// The end is a replacement of the closing brace: it comes behind all that is inserted before it. A `while` in
-// front of a return takes part in no `if ... else` around it.
+// Start and end are replacements of the braces: they come before and behind all that is inserted between them. A
+// `while` in front of a return takes part in no `if ... else` around it.
 void frameMain(Draft& draft, const std::string& before, const std::string& after) {
   const frontend::Shader& shader = draft.shader();
   const std::string enter = draft.name("enter()");
@@ -16,7 +16,7 @@ void frameMain(Draft& draft, const std::string& before, const std::string& after
   draft.append("void " + enter + " {\n" + before + "}\nbool " + leave + " {\n" + after + "  return true;\n}");
   const frontend::StatementId body = functionAt(shader, shader.main).body;
   const frontend::TokenRange tokens = statementAt(shader, body).tokens;
-  putAtBodyStart(draft.edits, shader, body, enter + ";");
+  draft.edits.replace(tokens.first, "{ " + enter + ";");
   for (frontend::TokenIndex i = tokens.first; i < tokens.last; ++i)
     if (shader.tokens[static_cast<std::size_t>(i)].text == "return")
       draft.edits.replace(i, "while (" + leave + ") return");

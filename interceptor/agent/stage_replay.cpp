@@ -40,7 +40,10 @@ OrRefusal<wire::ExecutedT> StageReplay::execute(const replay::ProgramCopy& copy,
                                                 const guard::ProgramGuard& program,
                                                 const wire::ExecuteT& request, wire::SharedMemory& bulk) {
   std::optional<guard::FeedbackGuard> guard;
-  if (copy.stages->last != wire::Stage::Compute) guard.emplace(facts_.context);
+  if (copy.stages->last != wire::Stage::Compute) {
+    guard.emplace(facts_.context);
+    target_.bind();
+  }
   auto result = replay(copy, program, request, bulk);
   feedback_.leaveMode(calls::feedbackMode());
   return result;

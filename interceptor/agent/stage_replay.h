@@ -12,6 +12,7 @@
 #include "interceptor/agent/check.h"
 #include "interceptor/agent/describe.h"
 #include "interceptor/capture/feedback.h"
+#include "interceptor/capture/plain_target.h"
 #include "interceptor/capture/storage.h"
 #include "interceptor/guard/guards.h"
 #include "interceptor/guard/memory.h"
@@ -33,7 +34,7 @@ class StageReplay {
         shaders_(shaders),
         feedback_(facts.context) {}
 
-  // The caller holds a MemoryGuard, and has saved what `copy` can write to.
+  // The caller holds a MemoryGuard and a FramebufferGuard, and has saved what `copy` can write to.
   guard::OrRefusal<wire::ExecutedT> execute(const replay::ProgramCopy& copy, const guard::ProgramGuard&,
                                             const wire::ExecuteT&, wire::SharedMemory& bulk);
   // There is more memory to compare than before.
@@ -64,6 +65,7 @@ class StageReplay {
   capture::StorageBuffer& storage_;
   replay::ShaderCache& shaders_;
   capture::Feedback feedback_;
+  capture::PlainTarget target_;
   std::map<std::string, Bare> bare_;  // by stage and names of outputs
   std::map<wire::Stage, std::uint64_t> records_;
 };

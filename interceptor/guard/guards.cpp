@@ -17,8 +17,8 @@ GLuint binding(GLenum name) {
   return static_cast<GLuint>(integer(name));
 }
 
-constexpr std::array kStages = {GL_VERTEX_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
-                                GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER};
+constexpr std::array kStages = {GL_VERTEX_SHADER,   GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
+                                GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER,     GL_COMPUTE_SHADER};
 
 }  // namespace
 

@@ -321,8 +321,7 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
     copy.subroutines = subroutineChoices(facts, original.program, copy.program);
   }
   if (in_pipeline) copy.pipeline = copyPipeline(original.pipeline, original.program, copy.program);
-  const std::string not_copied = copyUniforms(facts, original.program, copy.program);
-  if (!not_copied.empty()) return guard::unsupported(not_copied);
+  copyUniforms(facts, original.program, copy.program);
   // After the program's own blocks have got their bindings: it takes one that is left.
   if (Refusal failed = placeStorageBlock(facts, original, request.storage_block, copy);
       !failed.text.empty()) {

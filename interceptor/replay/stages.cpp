@@ -24,6 +24,8 @@ int wordsOf(GLenum type) {
     case GL_INT_VEC2:
     case GL_UNSIGNED_INT_VEC2:
     case GL_DOUBLE:
+    case GL_INT64_ARB:
+    case GL_UNSIGNED_INT64_ARB:
       return 2;
     case GL_FLOAT_VEC3:
     case GL_INT_VEC3:
@@ -34,14 +36,20 @@ int wordsOf(GLenum type) {
     case GL_UNSIGNED_INT_VEC4:
     case GL_FLOAT_MAT2:
     case GL_DOUBLE_VEC2:
+    case GL_INT64_VEC2_ARB:
+    case GL_UNSIGNED_INT64_VEC2_ARB:
       return 4;
     case GL_FLOAT_MAT2x3:
     case GL_FLOAT_MAT3x2:
     case GL_DOUBLE_VEC3:
+    case GL_INT64_VEC3_ARB:
+    case GL_UNSIGNED_INT64_VEC3_ARB:
       return 6;
     case GL_FLOAT_MAT2x4:
     case GL_FLOAT_MAT4x2:
     case GL_DOUBLE_VEC4:
+    case GL_INT64_VEC4_ARB:
+    case GL_UNSIGNED_INT64_VEC4_ARB:
     case GL_DOUBLE_MAT2:
       return 8;
     case GL_FLOAT_MAT3:

@@ -14,13 +14,16 @@ namespace {
 
 using dispatch::gl;
 
-enum class Scalar { float_, int_, uint_, double_ };
+enum class Scalar { float_, int_, uint_, double_, int64_, uint64_ };
 
 struct UniformType {
   GLenum type;
   Scalar scalar;
   int rows, columns;  // columns > 1: a matrix
-  int words() const { return rows * columns * (scalar == Scalar::double_ ? 2 : 1); }
+  bool wide() const {
+    return scalar == Scalar::double_ || scalar == Scalar::int64_ || scalar == Scalar::uint64_;
+  }
+  int words() const { return rows * columns * (wide() ? 2 : 1); }
 };
 
 constexpr std::array kTypes = {
@@ -62,12 +65,15 @@ constexpr std::array kTypes = {
     UniformType{GL_DOUBLE_MAT3x4, Scalar::double_, 4, 3},
     UniformType{GL_DOUBLE_MAT4x2, Scalar::double_, 2, 4},
     UniformType{GL_DOUBLE_MAT4x3, Scalar::double_, 3, 4},
+    UniformType{GL_INT64_ARB, Scalar::int64_, 1, 1},
+    UniformType{GL_INT64_VEC2_ARB, Scalar::int64_, 2, 1},
+    UniformType{GL_INT64_VEC3_ARB, Scalar::int64_, 3, 1},
+    UniformType{GL_INT64_VEC4_ARB, Scalar::int64_, 4, 1},
+    UniformType{GL_UNSIGNED_INT64_ARB, Scalar::uint64_, 1, 1},
+    UniformType{GL_UNSIGNED_INT64_VEC2_ARB, Scalar::uint64_, 2, 1},
+    UniformType{GL_UNSIGNED_INT64_VEC3_ARB, Scalar::uint64_, 3, 1},
+    UniformType{GL_UNSIGNED_INT64_VEC4_ARB, Scalar::uint64_, 4, 1},
 };
-
-// Not the same as an int: not set at all.
-constexpr std::array<GLenum, 8> kSixtyFourBits = {
-    0x140E, 0x8FE9, 0x8FEA, 0x8FEB,   // GL_INT64[_VECn]_ARB
-    0x140F, 0x8FF5, 0x8FF6, 0x8FF7};  // GL_UNSIGNED_INT64[_VECn]_ARB
 
 // Samplers and images, whose types are many, are set as one int: the unit.
 constexpr UniformType kOpaque{0, Scalar::int_, 1, 1};
@@ -95,6 +101,12 @@ void get(GLuint program, GLint location, const UniformType& type, Words& words) 
       break;
     case Scalar::double_:
       gl().GetUniformdv(program, location, static_cast<GLdouble*>(into));
+      break;
+    case Scalar::int64_:
+      gl().GetUniformi64vARB(program, location, static_cast<GLint64*>(into));
+      break;
+    case Scalar::uint64_:
+      gl().GetUniformui64vARB(program, location, static_cast<GLuint64*>(into));
       break;
   }
 }
@@ -129,7 +141,7 @@ void setDoubleMatrix(const UniformType& type, GLint location, GLsizei count, con
   setMatrix<GLdouble>(setters[type.columns - 2][type.rows - 2], location, count, words);
 }
 
-// `words`: aligned for doubles.
+// `words`: aligned for 64 bits.
 void set(const UniformType& type, GLint location, GLsizei count, const void* words) {
   const auto& table = gl();
   const bool matrix = type.columns > 1;
@@ -148,6 +160,12 @@ void set(const UniformType& type, GLint location, GLsizei count, const void* wor
       if (matrix) return setDoubleMatrix(type, location, count, words);
       return setVector<GLdouble>(type.rows, location, count, words, table.Uniform1dv, table.Uniform2dv,
                                  table.Uniform3dv, table.Uniform4dv);
+    case Scalar::int64_:
+      return setVector<GLint64>(type.rows, location, count, words, table.Uniform1i64vARB,
+                                table.Uniform2i64vARB, table.Uniform3i64vARB, table.Uniform4i64vARB);
+    case Scalar::uint64_:
+      return setVector<GLuint64>(type.rows, location, count, words, table.Uniform1ui64vARB,
+                                 table.Uniform2ui64vARB, table.Uniform3ui64vARB, table.Uniform4ui64vARB);
   }
 }
 
@@ -173,7 +191,7 @@ std::string elementName(const ActiveUniform& uniform, GLint element) {
   return uniform.name.substr(0, uniform.name.size() - 2) + std::to_string(element) + "]";
 }
 
-std::string copyDefaultBlock(const guard::ContextFacts& facts, GLuint original, GLuint copy) {
+void copyDefaultBlock(const guard::ContextFacts& facts, GLuint original, GLuint copy) {
   GLint count = 0;
   GLint longest = 0;
   gl().GetProgramiv(copy, GL_ACTIVE_UNIFORMS, &count);
@@ -187,18 +205,12 @@ std::string copyDefaultBlock(const guard::ContextFacts& facts, GLuint original, 
       const GLint to = gl().GetUniformLocation(copy, name.c_str());
       if (from < 0 || to < 0) continue;  // built-in, in a block, or not alive in the original
       if (facts.es && guard::isImageType(uniform.type)) continue;  // ES: fixed by the shader's text
-      for (const GLenum type : kSixtyFourBits) {
-        if (type == uniform.type)
-          return "the uniform " + uniform.name +
-                 " is of a 64-bit integer type, which cannot be carried over yet";
-      }
       const UniformType& type = uniformType(uniform.type);
       alignas(8) Words words{};
       get(original, from, type, words);
       set(type, to, 1, words.data());
     }
   }
-  return "";
 }
 
 void copyUniformBlocks(GLuint original, GLuint copy) {
@@ -217,8 +229,8 @@ void copyUniformBlocks(GLuint original, GLuint copy) {
   }
 }
 
-void copyStorageBlocks(GLuint original, GLuint copy) {
-  if (!dispatch::available("glShaderStorageBlockBinding")) return;  // OpenGL ES: fixed by the shader's text
+void copyStorageBlocks(const guard::ContextFacts& facts, GLuint original, GLuint copy) {
+  if (!dispatch::available("glShaderStorageBlockBinding") || facts.es) return;  // fixed by the shader's text
   GLint count = 0;
   GLint longest = 0;
   gl().GetProgramInterfaceiv(copy, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
@@ -238,12 +250,11 @@ void copyStorageBlocks(GLuint original, GLuint copy) {
 
 }  // namespace
 
-std::string copyUniforms(const guard::ContextFacts& facts, GLuint original, GLuint copy) {
+void copyUniforms(const guard::ContextFacts& facts, GLuint original, GLuint copy) {
   gl().UseProgram(copy);
-  std::string problem = copyDefaultBlock(facts, original, copy);
+  copyDefaultBlock(facts, original, copy);
   if (facts.uniformBlocks()) copyUniformBlocks(original, copy);
-  if (facts.storageBuffers()) copyStorageBlocks(original, copy);
-  return problem;
+  if (facts.storageBuffers()) copyStorageBlocks(facts, original, copy);
 }
 
 std::string setUniforms(GLuint program, const std::vector<std::unique_ptr<wire::UniformValueT>>& values) {
@@ -303,7 +314,7 @@ std::vector<SubroutineChoice> subroutineChoices(const guard::ContextFacts& facts
   std::vector<SubroutineChoice> choices;
   if (!facts.subroutines()) return choices;
   for (const GLenum stage : {GL_VERTEX_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
-                             GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER}) {
+                             GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER, GL_COMPUTE_SHADER}) {
     SubroutineChoice choice{static_cast<GLenum>(stage), {}};
     const auto ask = [&](GLuint program, GLenum what) {
       GLint value = 0;

@@ -18,9 +18,8 @@ namespace shadestep::replay {
 
 // Carries over by name: default-block uniforms of all types, element by element, and the bindings of uniform
 // and storage blocks. A uniform that only the copy has alive keeps its initial value, which is also what the
-// original would show: nothing could be given to it. Makes `copy` current. Returns "" or what could not be
-// carried over.
-std::string copyUniforms(const guard::ContextFacts&, GLuint original, GLuint copy);
+// original would show: nothing could be given to it. Makes `copy` current.
+void copyUniforms(const guard::ContextFacts&, GLuint original, GLuint copy);
 
 // Sets uniforms of the current program, which is `program`; names that it does not have alive are skipped.
 // Returns "" or which value cannot be set.

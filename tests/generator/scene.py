@@ -23,6 +23,8 @@ def describe(program: Program, dialect: Dialect) -> str:
             lines += ["target float"] * v.type.dims[0]
         else:
             lines.append(f"target {v.type.base}")
+    if not program.outputs and program.stage != "compute":
+        lines.append("target float")
     if not dialect.locations:
         names = [v.name if shows else "shown_" + v.name for v in program.outputs if v.storage == "out"]
         lines += [f"out {name} {n}" for n, name in enumerate(names)]
