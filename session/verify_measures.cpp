@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "instrumenter/measures.h"
 #include "session/loops.h"
@@ -61,6 +62,20 @@ void expect(Findings& findings, const Statement& at, const std::string& plan, co
                     ", recorded " + std::to_string(recorded));
 }
 
+// The functions that the initializers of globals call: a count has those runs too, a recording begins with
+// main.
+std::set<frontend::FunctionId> runBeforeMain(const Shader& shader) {
+  std::set<frontend::FunctionId> found;
+  for (const frontend::Call& call : shader.calls)
+    if (call.statement == frontend::kNone) found.insert(call.callee);
+  for (std::size_t known = 0; known != found.size();) {
+    known = found.size();
+    for (const frontend::Call& call : shader.calls)
+      if (found.contains(call.caller)) found.insert(call.callee);
+  }
+  return found;
+}
+
 }  // namespace
 
 void checkLoops(Session& session, Findings& findings, const std::vector<RecordedThread>& recorded) {
@@ -87,11 +102,12 @@ void checkLoops(Session& session, Findings& findings, const std::vector<Recorded
 void checkCounts(Session& session, Findings& findings, const std::vector<RecordedThread>& recorded,
                  std::size_t most) {
   const Shader& shader = session.shader();
+  const std::set<frontend::FunctionId> before_main = runBeforeMain(shader);
   std::vector<StatementId> all;
   for (std::size_t id = 0; id < shader.statements.size(); ++id) {
     const Statement& at = shader.statements[id];
-    if (at.function != frontend::kNone && at.kind != StatementKind::block &&
-        at.kind != StatementKind::case_label && !isForInit(shader, at))
+    if (at.function != frontend::kNone && !before_main.contains(at.function) &&
+        at.kind != StatementKind::block && at.kind != StatementKind::case_label && !isForInit(shader, at))
       all.push_back(static_cast<StatementId>(id));
   }
   std::vector<StatementId> chosen;
