@@ -102,7 +102,8 @@ class Check:
 
     def verify(self) -> bool:
         result = self.folder / "verified.txt"
-        command = [str(self.tools.shadestep), "verify", "--json", "--stage", self.program.stage, "--continue", "--pixels", "3", "--", *self.draw, str(result)]
+        command = [str(self.tools.shadestep), "verify", "--json", "--stage", self.program.stage, "--continue", "--pixels", "3", "--",
+                   *self.draw, str(result)]
         result.unlink(missing_ok=True)
         status, out, err = run(command, self.tools.timeout)
         try:
@@ -196,7 +197,7 @@ class Check:
                 if found is not None:
                     truth[f"{x},{y}"] = found
                     for name, (v, _) in found.items():
-                        if not v.name.startswith("gl_") and v.type.words() <= 16 and self.used(name):
+                        if not v.name.startswith("gl_") and v.storage != "buffer" and v.type.words() <= 16 and self.used(name):
                             names[name] = v.type.bases()
         names = dict(self.random.sample(sorted(names.items()), min(len(names), 4)))
         names = {name: bases for name, bases in names.items() if all(name in one for one in truth.values())}

@@ -109,7 +109,6 @@ class Interpreter(Evaluator):
             self.env[v] = [None] * v.type.words()
         return []
 
-
     def step(self, kind: str, at, visible: dict, outcome=None, returned=None, iteration: int | None = None) -> None:
         self.count += 1
         if self.count > self.MOST_STEPS:
