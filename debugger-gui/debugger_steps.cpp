@@ -1,6 +1,5 @@
 // The debugger's steps: forwards by the stepper, backwards along the way that was gone, and both ways along
 // the recorded way of the picked thread.
-#include <QRegularExpression>
 #include <algorithm>
 #include <limits>
 
@@ -122,55 +121,29 @@ void Debugger::moveToStep(int step) {
 
 namespace {
 
-// A breakpoint's condition: NAME, or NAME OPERATOR NUMBER.
-struct Condition {
-  std::string name;
-  QString comparison;
-  double number = 0;
-};
-
-std::optional<Condition> parse(const QString& text) {
-  static const QRegularExpression kForm(
-      R"(^\s*(!?)\s*([A-Za-z_][\w.\[\]]*)\s*(?:(==|!=|<=|>=|<|>)\s*([-+\d.eE]+|true|false))?\s*$)");
-  const QRegularExpressionMatch match = kForm.match(text);
-  if (!match.hasMatch()) return std::nullopt;
-  Condition condition{match.captured(2).toStdString(), match.captured(3), 0};
-  if (condition.comparison.isEmpty()) {
-    condition.comparison = match.captured(1).isEmpty() ? "!=" : "==";
-    return condition;
-  }
-  if (!match.captured(1).isEmpty()) return std::nullopt;
-  const QString number = match.captured(4);
-  bool is_number = true;
-  condition.number = number == "true" ? 1 : number == "false" ? 0 : number.toDouble(&is_number);
-  return is_number ? std::optional(condition) : std::nullopt;
-}
-
-bool holds(const Condition& condition, double value) {
-  if (condition.comparison == "==") return value == condition.number;
-  if (condition.comparison == "!=") return value != condition.number;
-  if (condition.comparison == "<=") return value <= condition.number;
-  if (condition.comparison == ">=") return value >= condition.number;
-  if (condition.comparison == "<") return value < condition.number;
-  return value > condition.number;
-}
-
 struct Candidate {
   session::Position position;
-  std::optional<Condition> condition;
+  std::string condition;  // an expression; empty: always
 };
 
+// Is the condition true, or not zero, for the picked thread?
 bool holdsAt(Debuggee& debuggee, const Candidate& candidate, const Picked& picked) {
-  if (!candidate.condition) return true;
-  const LookPtr look = debuggee.look({candidate.condition->name});
+  if (candidate.condition.empty()) return true;
+  const LookPtr look = debuggee.look({candidate.condition});
   if (look->threads.values.empty())
     throw Error(Outcome::nothing_matches,
-                "the condition cannot be evaluated: " + look->refused.front().second);
+                "the breakpoint's condition has no value: " + look->refused.front().second);
   const session::ThreadValues& threads = look->threads;
   const auto index = picked.in(threads);
   const session::WatchedValues& value = threads.values.front();
-  if (!index || !threads.reachedAt(*index) || !value.type.isScalar()) return false;
-  return holds(*candidate.condition, session::componentAsDouble(value.type.basic, value.at(*index)));
+  if (!value.no_value.empty())
+    throw Error(Outcome::nothing_matches, "the breakpoint's condition has no value: " + value.no_value);
+  if (!value.type.isScalar())
+    throw Error(Outcome::nothing_matches, "the breakpoint's condition is a " +
+                                              frontend::glslName(value.type) +
+                                              "; write one that is true or false");
+  if (!index || !threads.reachedAt(*index)) return false;
+  return session::componentAsDouble(value.type.basic, value.at(*index)) != 0;
 }
 
 }  // namespace
@@ -196,27 +169,21 @@ void Debugger::resume(bool backwards) {
     if (!position || breakpoint == marked.constEnd() || !breakpoint->enabled) continue;
     if (visits[step.line]++ < breakpoint->ignore) continue;
     if (backwards ? i >= here : i <= here) continue;
-    std::optional<Condition> condition;
-    if (!breakpoint->condition.isEmpty()) {
-      condition = parse(breakpoint->condition);
-      if (!condition) {
-        Q_EMIT message(tr("The condition at line %1 is not NAME, !NAME or NAME compared with a number: %2")
-                           .arg(step.line)
-                           .arg(breakpoint->condition),
-                       true);
-        return;
-      }
-    }
-    candidates.push_back({*position, condition});
+    candidates.push_back({*position, breakpoint->condition.trimmed().toStdString()});
   }
   if (backwards) std::reverse(candidates.begin(), candidates.end());
   const session::Position from = place_->position;
   backend_.ask(
       backwards ? tr("Running back to a breakpoint") : tr("Running to a breakpoint"), "",
       [candidates, from, picked = picked_](Debuggee& debuggee) {
-        for (const Candidate& candidate : candidates) {
-          Place place = debuggee.moveTo(candidate.position);
-          if (holdsAt(debuggee, candidate, picked)) return std::pair(true, std::move(place));
+        try {
+          for (const Candidate& candidate : candidates) {
+            Place place = debuggee.moveTo(candidate.position);
+            if (holdsAt(debuggee, candidate, picked)) return std::pair(true, std::move(place));
+          }
+        } catch (const Error& error) {
+          if (error.outcome() == Outcome::nothing_matches) debuggee.moveTo(from);
+          throw;
         }
         return std::pair(false, debuggee.moveTo(from));
       },

@@ -160,7 +160,7 @@ void SourceTabs::editBreakpoint(int line) {
   auto* dialog = new QInputDialog(this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Breakpoint at line %1").arg(line));
-  dialog->setLabelText(tr("Stop the picked thread here only if (such as: dst.a > 0.9; empty: always)"));
+  dialog->setLabelText(tr("Stop the picked thread here only if (an expression, such as: i > 40 && dst.a > 0.9; empty: always)"));
   dialog->setTextValue(before.condition);
   connect(dialog, &QInputDialog::textValueSelected, this, [this, line, before](const QString& condition) {
     Breakpoint after = before;

@@ -54,6 +54,14 @@ TEST(Steps, AConditionChoosesTheIteration) {
   window.debugger().setBreakpoint(lineInLoop(window), gui::Breakpoint{true, "i == 7", 0});
   window.press("run");
   EXPECT_EQ(window.shown("i"), "7");
+  window.debugger().setBreakpoint(lineInLoop(window),
+                                  gui::Breakpoint{true, "2 * i - 4 == 20 && dst.a < 2.0", 0});
+  window.press("run");
+  EXPECT_EQ(window.shown("i"), "12");
+  window.debugger().setBreakpoint(lineInLoop(window), gui::Breakpoint{true, "i = 20", 0});
+  window.press("run");
+  EXPECT_TRUE(window.lastMessage().contains("side effect")) << window.lastMessage().toStdString();
+  EXPECT_EQ(window.shown("i"), "12") << "left where it was";
   window.debugger().setBreakpoint(lineInLoop(window), gui::Breakpoint{true, "i ==", 0});
   window.press("run");
   EXPECT_TRUE(window.lastMessage().contains("condition")) << window.lastMessage().toStdString();
