@@ -16,7 +16,7 @@ import scopes
 from dialect import Dialect
 from interpret import Interpreter, Pixel, Undefined
 from stages import STAGES, selection, split_row
-from tree import Program, S
+from tree import Program, S, Variable
 
 
 @dataclass
@@ -197,7 +197,7 @@ class Check:
                 if found is not None:
                     truth[f"{x},{y}"] = found
                     for name, (v, _) in found.items():
-                        if not v.name.startswith("gl_") and v.storage != "buffer" and v.type.words() <= 16 and self.used(name):
+                        if not v.name.startswith("gl_") and v.type.words() <= 16 and self.used(v):
                             names[name] = v.type.bases()
         names = dict(self.random.sample(sorted(names.items()), min(len(names), 4)))
         names = {name: bases for name, bases in names.items() if all(name in one for one in truth.values())}
@@ -228,12 +228,12 @@ class Check:
         self.outcome.values += len(shown) * len(names)
         return bool(problems and self.fail("place", problems, command))
 
-    def used(self, name: str) -> bool:
-        """Memory that the shader only declares cannot be looked at."""
-        name = name.split("[")[0]
+    def used(self, v: Variable) -> bool:
+        """What lies outside of the shader can be looked at only where the shader names it."""
+        if v.storage in ("local", "parameter", "global", "constant"):
+            return True
         own = [e for s in self.program.statements() for one in s.exprs if one is not None for e in one.walk()]
-        return name not in ("cells", "total") or any(e.kind == "var" and e.data.name == name and e.data.storage == "buffer"
-                                                     for e in own)
+        return any(e.kind == "var" and e.data.name == v.name.split("[")[0] and e.data.storage == v.storage for e in own)
 
     def is_init(self, s: S) -> bool:
         return any(one.kind == "for" and one.body[0] is s for one in self.program.statements())

@@ -36,7 +36,7 @@ class Dialects : public testing::Test {
   static void expectAllRight(const Finished& verified) {
     EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
     const Json report = verified.json();
-    EXPECT_EQ(report.at("shaders"), 1) << verified.out;
+    EXPECT_EQ(report.at("stages").at("fragment").at("shaders"), 1) << verified.out;
     EXPECT_TRUE(report.at("failures").empty()) << verified.out;
   }
 
