@@ -45,10 +45,32 @@ std::map<std::string, std::string> renamings(const std::vector<Token>& tokens, c
   return renamed;
 }
 
+// Locals that take a structure's name, under names of ours: behind a comma glslang reads the type's name
+// still, as in `uint a, S = 1u;`.
+std::map<VariableId, std::string> typesHidden(const std::vector<Token>& tokens, const Skeleton& skeleton) {
+  std::set<std::string> structures, used;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    used.insert(tokens[i].text);
+    if (i > 0 && tokens[i - 1].text == "struct") structures.insert(tokens[i].text);
+  }
+  std::map<VariableId, std::string> fresh;
+  for (std::size_t i = 0; i < skeleton.variables.size(); ++i) {
+    const Variable& variable = skeleton.variables[i];
+    if (variable.storage != Storage::local || structures.count(variable.name) == 0) continue;
+    std::string name = "variableOf" + variable.name;
+    while (used.count(name) > 0) name += "0";
+    fresh.emplace(static_cast<VariableId>(i), name);
+  }
+  return fresh;
+}
+
 class Builder {
  public:
   Builder(const std::vector<Token>& tokens, const Skeleton& skeleton, const Dialect& dialect)
-      : tokens_(tokens), skeleton_(skeleton), dialect_(dialect) {
+      : tokens_(tokens),
+        skeleton_(skeleton),
+        dialect_(dialect),
+        types_hidden_(typesHidden(tokens, skeleton)) {
     if (!dialect.raised) return;
     renamed_ = renamings(tokens, skeleton);
     declared_.insert(skeleton.declared_names.begin(), skeleton.declared_names.end());
@@ -76,6 +98,7 @@ class Builder {
       addToken(token);
     }
     for (const auto& [users, ours] : renamed_) result_.renamed[ours] = users;
+    for (const auto& [id, ours] : types_hidden_) result_.renamed[ours] = nameOf(id);
     return std::move(result_);
   }
 
@@ -125,7 +148,12 @@ class Builder {
   }
 
   std::string mention(const Insertion& inserted) const {
-    return named(skeleton_.variables[static_cast<std::size_t>(inserted.mentions)].name) + ";";
+    const auto hidden = types_hidden_.find(inserted.mentions);
+    return (hidden != types_hidden_.end() ? hidden->second : named(nameOf(inserted.mentions))) + ";";
+  }
+
+  const std::string& nameOf(VariableId id) const {
+    return skeleton_.variables[static_cast<std::size_t>(id)].name;
   }
 
   std::string lineOf(TokenIndex index) const {
@@ -136,7 +164,10 @@ class Builder {
     const auto replaced = skeleton_.analysed_as.find(index);
     if (replaced != skeleton_.analysed_as.end()) return replaced->second;
     const Token& token = tokens_[static_cast<std::size_t>(index)];
-    if (token.kind == TokenKind::identifier) return named(token.text);
+    if (token.kind == TokenKind::identifier) {
+      const auto hidden = types_hidden_.find(skeleton_.resolved[static_cast<std::size_t>(index)]);
+      return hidden != types_hidden_.end() ? hidden->second : named(token.text);
+    }
     if (token.kind != TokenKind::directive) return token.text;
     const bool extension = token.text.rfind("#extension", 0) == 0;
     return extension && dialect_.keep_extensions ? token.text : "";
@@ -150,6 +181,7 @@ class Builder {
   const std::vector<Token>& tokens_;
   const Skeleton& skeleton_;
   const Dialect& dialect_;
+  std::map<VariableId, std::string> types_hidden_;
   std::map<std::string, std::string> renamed_;
   std::set<std::string> declared_;
   std::set<TokenIndex> result_closes_;  // parentheses after which a constructor closes that we opened

@@ -21,7 +21,7 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
       check_(new CheckBadge),
       tree_(new QTreeView),
       histogram_(new Histogram) {
-  expression_->setPlaceholderText(tr("Watch an expression: dst.rgb, m[1].z, gl_FragCoord"));
+  expression_->setPlaceholderText(tr("Watch an expression: dst.rgb, m[1].z, length(dir) * 2.0"));
   tree_->setModel(&model_);
   tree_->setUniformRowHeights(true);
   tree_->setAlternatingRowColors(true);

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "shader_text.h"
 
 namespace shadestep::frontend {
@@ -112,6 +114,20 @@ TEST(Layouts, WhereThingsLieIsTheDriversBusiness) {
       "void main() { imageAtomicAdd(i, ivec2(0), 1u); c = vec4(a + float(b)); }\n");
   EXPECT_TRUE(shader.traits.writes_memory);
   EXPECT_THAT(names(shader, shader.outputs), ElementsAre("c"));
+}
+
+TEST(Names, OfStructuresMayBeTakenByAnyDeclaredName) {
+  const Shader shader = analysed(
+      "#version 330\nstruct S { int a; };\nout vec4 color;\n"
+      "void main() {\n  S s = S(1);\n  { uint b = 2u, S = b + 1u; b += S; color = vec4(S); }\n  S t = "
+      "s;\n}\n");
+  const auto named = [&](const std::string& name) {
+    return std::find_if(shader.variables.begin(), shader.variables.end(),
+                        [&](const Variable& one) { return one.name == name; });
+  };
+  ASSERT_NE(named("S"), shader.variables.end());
+  EXPECT_EQ(glslName(named("S")->type), "uint");
+  EXPECT_EQ(glslName(named("t")->type), "S");
 }
 
 TEST(Images, MayBePassedWithoutTheirFormat) {
