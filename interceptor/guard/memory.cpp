@@ -204,6 +204,9 @@ void WritableMemory::restore() const {
     copyTexels(image.shape, image.copy, GL_TEXTURE_2D_ARRAY, 0, image.texture, image.shape.target,
                image.level);
   }
+  // Mesa's llvmpipe copies texels later, in threads of its own, and stages before rasterization do not wait
+  // for them: what they store would be lost to the copy.
+  if (!images_.empty()) gl().Finish();
 }
 
 // ---- reading
