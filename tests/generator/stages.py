@@ -69,9 +69,12 @@ def split_row(stage: str, dialect: Dialect, row: list[str]) -> tuple[str, list[s
     if stage in ("fragment", "compute"):
         return f"{row[0]},{row[1]}", row[2 if stage == "fragment" else 3:]
     first = int(row[0])
-    columns, n = {"vertex": (2, first), "geometry": (2 if dialect.version >= 400 else 1, first),
-                  "tess-control": (2, first * 4 + int(row[1])),
-                  "tess-eval": (3, first * 2 + int(float(row[1])))}[stage]
+    if stage == "tess-control":
+        columns, n = 2, first * 4 + int(row[1])
+    elif stage == "tess-eval":
+        columns, n = 3, first * 2 + int(float(row[1]))
+    else:
+        columns, n = 1 if stage == "geometry" and dialect.version < 400 else 2, first
     width = STAGES[stage].size[0]
     return f"{n % width},{n // width}", row[columns:]
 
