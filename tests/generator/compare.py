@@ -40,8 +40,9 @@ def whole_declarations(shown: list[dict]) -> list[dict]:
             before = {name: one for changed in open_at.values() for name, one in changed.items()}
             whole.append(step | {"before": before} if before else step)
             for changed in open_at.values():  # newer values than those
-                for name in step["changed"]:
-                    changed.pop(name, None)
+                for name, one in step["changed"].items():
+                    if name in changed and changed[name]["type"] == one["type"]:  # else another variable's
+                        del changed[name]
     return whole
 
 
