@@ -110,10 +110,11 @@ std::vector<std::string> splitList(const std::string& text) {
     if (c == ']' || c == ')') --depth;
     if (c == ',' && depth == 0) {
       parts.emplace_back();
-    } else if (c != ' ') {
+    } else if (c != ' ' || !parts.back().empty()) {
       parts.back() += c;
     }
   }
+  for (std::string& part : parts) part.erase(part.find_last_not_of(' ') + 1);
   std::erase(parts, "");
   return parts;
 }

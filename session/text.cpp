@@ -67,12 +67,22 @@ std::string errorName(std::uint32_t error) {
   return text;
 }
 
+std::string csvCell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
 namespace {
 
 // A cell, and what stands between it and the one before it in its row.
 void addCell(std::string& csv, const std::string& text) {
   if (!csv.empty() && csv.back() != '\n') csv += ',';
-  csv += text;
+  csv += csvCell(text);
 }
 
 void addCells(std::string& csv, const WatchedValues& watched, std::size_t thread) {

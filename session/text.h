@@ -22,6 +22,10 @@ std::string errorName(std::uint32_t error);  // "GL_INVALID_ENUM"
 // it.
 std::string describe(const LoggedCall&);
 
+// A cell of a CSV file (RFC 4180): as it is, or in quotes where a comma, a quote or a line's end would break
+// it.
+std::string csvCell(const std::string& text);
+
 // A header line, then a row for each thread that got to the place: x, y, or who else the thread is, and the
 // values, a component each.
 std::string asCsv(const ThreadValues&);

@@ -207,7 +207,7 @@ std::string asCsv(const ThreadRun& run) {
     if (!step.outcome.empty()) csv += head + "condition,bool," + step.outcome + "\n";
     if (step.outcome.empty() && step.changed.empty()) csv += head + ",,\n";
     for (const session::NamedValue& value : step.changed) {
-      csv += head + value.name + "," + glslName(value.value.type) + ",\"" +
+      csv += head + session::csvCell(value.name) + "," + glslName(value.value.type) + ",\"" +
              session::formatValue(value.value) + "\"\n";
     }
   }

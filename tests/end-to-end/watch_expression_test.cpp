@@ -59,6 +59,18 @@ TEST_F(WatchedExpressions, HaveTheValuesOfTheirPlace) {
   }
 }
 
+TEST_F(WatchedExpressions, AreNamedAsTheyWereWritten) {
+  const auto rows = rowsOf("11", "sum - -1, max(p.x, p.y)");
+  ASSERT_EQ(rows.size(), 256U);
+  for (const auto& row : rows) {
+    const int x = std::stoi(row[0]), y = std::stoi(row[1]);
+    ASSERT_EQ(std::stoi(row[2]), x * (x - 1) / 2 * y + 1);
+    ASSERT_EQ(std::stoi(row[3]), std::max(x, y));
+  }
+  const std::string csv = readFile(scratch_.file("values.csv"));
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "x,y,sum - -1,\"max(p.x, p.y)\"");
+}
+
 TEST_F(WatchedExpressions, AreTheSameByEveryPlanThatCanEvaluateThem) {
   for (const char* plan : {"single", "window"}) {
     const auto rows = rowsOf("10", "sum + i * i, p.y << 2", {"--iteration", "3", "--plan", plan});
@@ -71,15 +83,15 @@ TEST_F(WatchedExpressions, AreTheSameByEveryPlanThatCanEvaluateThem) {
   }
   const Finished recorded = debug({"--at", "11", "--print", "sum + 1", "--plan", "recording"});
   EXPECT_EQ(recorded.status, 4);
-  EXPECT_NE(recorded.err.find("'sum+1' is an expression"), std::string::npos) << recorded.err;
+  EXPECT_NE(recorded.err.find("'sum + 1' is an expression"), std::string::npos) << recorded.err;
 }
 
 TEST_F(WatchedExpressions, ThatReadADroppedUniformHaveNoValue) {
   const Json values = debug({"--at", "11", "--print", "size * 2.0,sum * 2", "--json"}).json().at("values");
-  EXPECT_NE(values.at("size*2.0").at("no_value").get<std::string>().find("it reads 'size'"),
+  EXPECT_NE(values.at("size * 2.0").at("no_value").get<std::string>().find("it reads 'size'"),
             std::string::npos)
       << values;
-  EXPECT_EQ(values.at("sum*2").at("max"), 15 * 14 / 2 * 15 * 2);
+  EXPECT_EQ(values.at("sum * 2").at("max"), 15 * 14 / 2 * 15 * 2);
 }
 
 TEST_F(WatchedExpressions, ThatWouldChangeTheProgramAreRefused) {
