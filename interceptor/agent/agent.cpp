@@ -196,6 +196,10 @@ void sendToSession(wire::CallsT&& calls, bool wait) {
 }
 
 void onLoad() {
+  // A library's constructor that ran before ours may have made a context current, or another thread of it
+  // does now.
+  static constinit std::atomic<bool> begun{false};
+  if (begun.exchange(true)) return;
   const char* socket = std::getenv(wire::kSocketVariable);
   if (socket == nullptr || *socket == '\0') return;
   Connection& session = connection();
@@ -261,6 +265,7 @@ void onPresent() {
 }
 
 void onContextCurrent() {
+  agent::onLoad();
   if (dispatch::currentContext() != nullptr) status.used_gl.store(1, agent::kRelaxed);
 }
 

@@ -14,11 +14,10 @@ bool any(const std::vector<std::uint64_t>& counts) {
   return std::any_of(counts.begin(), counts.end(), [](std::uint64_t count) { return count != 0; });
 }
 
-Refusal readInto(Traces& traces, wire::SharedMemory& into) {
-  const std::size_t bytes = std::max<std::size_t>(guard::totalBytes(traces.sections()), 1);
-  if (into.size() != bytes) into = wire::SharedMemory::create("shadestep-outputs", bytes);
-  if (!into) return guard::limit("there is not enough shared memory to compare what two draws leave");
-  return traces.read(into.data());
+Refusal readInto(Traces& traces, ScratchMemory& into) {
+  std::byte* memory = into.reserve(std::max<std::size_t>(guard::totalBytes(traces.sections()), 1));
+  if (memory == nullptr) return guard::limit("there is not enough memory to compare what two draws leave");
+  return traces.read(memory);
 }
 
 void append(std::vector<Section>& sections, std::vector<Section> more) {
@@ -72,7 +71,7 @@ Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& exec
   std::vector<std::uint64_t> unstable(sections.size(), 0);
   if (any(differing)) {
     if (Refusal refusal = again(); !refusal.text.empty()) return refusal;
-    wire::SharedMemory second;
+    ScratchMemory second;
     if (Refusal refusal = readInto(traces, second); !refusal.text.empty()) return refusal;
     unstable = guard::differences(sections, reference_.data(), second.data());
   }

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "interceptor/agent/scratch_memory.h"
 #include "interceptor/capture/feedback.h"
 #include "interceptor/capture/shadow.h"
 #include "interceptor/guard/context_facts.h"
 #include "interceptor/guard/memory.h"
 #include "interceptor/guard/refusal.h"
 #include "interceptor/guard/section.h"
-#include "wire/channel.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
@@ -69,16 +69,15 @@ class Check {
   // Keeps what such a replay has just left.
   guard::Refusal keepReference(Traces&);
   bool hasReference() const { return static_cast<bool>(reference_); }
-  void dropReference() { reference_ = {}; }
+  void dropReference() { reference_.release(); }
 
   // Compares what lies there now, and fills the answer's fields about it. After `again` was called, what the
   // instrumented replay left is gone.
   guard::Refusal compare(Traces&, const Again& again, wire::ExecutedT&);
 
  private:
-  wire::SharedMemory reference_;
-  wire::SharedMemory
-      drawn_;  // what the last replay left: kept, because new pages cost more than reading into them
+  ScratchMemory reference_;
+  ScratchMemory drawn_;  // what the last replay left
 };
 
 }  // namespace shadestep::agent

@@ -59,7 +59,8 @@ void onContextGone(const dispatch::Context& context);
 
 namespace shadestep::agent {
 
-// At the library's load, before main(); other libraries' constructors may already have called GL.
+// At the library's load, before main(), or at the first context if another library's constructor makes one
+// current before: what draws there can be stopped at, too. Does nothing but once.
 void onLoad();
 // At the orderly end of the program (exit handlers, not _exit or a signal).
 void onExit();
