@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "cli/common.h"
+#include "cli/interruption.h"
 #include "session/text.h"
 
 namespace shadestep::cli {
@@ -39,7 +40,7 @@ constexpr const char* kHelp =
     "set NAME=VALUE changes an argument of the call that comes next, for this once\n"
     "skip           leaves that call out\n"
     "show           the call again\n"
-    "run            on to the program's end\n"
+    "run            on to the program's end; Ctrl-C stops it at its next call\n"
     "quit           ends the program under debug\n";
 
 const char* reasonName(StopReason reason) {
@@ -110,10 +111,10 @@ StopCondition conditionOf(const Common& common, const Options& options, bool fra
 }
 
 // Changes every call that matches, and lets the program run on to its end; its status is ours.
-int changeAll(session::Session& session, const Common& common, const Options& options,
-              const StopCondition& condition) {
+int changeAll(const Common& common, const Options& options, const StopCondition& condition) {
   std::vector<std::pair<std::string, std::string>> changes;
   for (const std::string& text : options.changes) changes.push_back(change(text));
+  session::Session session(common.launchOptions());
   Json stops = Json::array();
   Stop stop;
   while (options.stops == 0 || stops.size() < options.stops) {
@@ -137,8 +138,8 @@ int changeAll(session::Session& session, const Common& common, const Options& op
 // Commands on stdin.
 class Dialogue {
  public:
-  Dialogue(session::Session& session, const StopCondition& condition)
-      : session_(session), condition_(condition) {}
+  Dialogue(InterruptibleSession& program, const StopCondition& condition)
+      : program_(program), session_(program.session()), condition_(condition) {}
 
   bool ended() const { return stop_.reason == StopReason::ended; }
   const Stop& stop() const { return stop_; }
@@ -159,7 +160,10 @@ class Dialogue {
       session_.skipCall();
       stop_.call = *session_.callStop();
     } else {
-      stop_ = session_.runUntil(destination(command, argument));
+      const StopCondition to = destination(command, argument);
+      program_.on(InterruptibleSession::Action::pause);
+      stop_ = session_.runUntil(to);
+      program_.on(InterruptibleSession::Action::end);
     }
   }
 
@@ -186,15 +190,19 @@ class Dialogue {
     return to;
   }
 
+  InterruptibleSession& program_;
   session::Session& session_;
   StopCondition condition_;
   Stop stop_;
 };
 
-// In JSON the whole dialogue is one document, printed at its end.
-int converse(session::Session& session, const Common& common, const StopCondition& condition) {
+// Ctrl-C pauses a program that runs, and ends everything where it stands already. In JSON the whole dialogue
+// is one document, printed at its end.
+int converse(const Common& common, const StopCondition& condition) {
   const bool prompt = !common.json && isatty(STDIN_FILENO) != 0;
-  Dialogue dialogue(session, condition);
+  InterruptibleSession program(common.launchOptions());
+  session::Session& session = program.session();
+  Dialogue dialogue(program, condition);
   Json steps = Json::array();
   const auto answer = [&](const std::string& line) {
     Json step = {{"command", line}};
@@ -233,8 +241,7 @@ int run(const Common& common, const Options& options, bool frame_given) {
   if (batch && condition.gl_error)
     throw Error(Outcome::usage,
                 "a call is known to have an error only when it has been made, and cannot be changed then");
-  session::Session session(common.launchOptions());
-  return batch ? changeAll(session, common, options, condition) : converse(session, common, condition);
+  return batch ? changeAll(common, options, condition) : converse(common, condition);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "cli/common.h"
+#include "session/call_statistics.h"
 
 namespace shadestep::cli {
 namespace {
@@ -22,47 +23,32 @@ void printCall(const session::LoggedCall& call, bool with_thread) {
   std::cout << " " << session::describe(call) << "\n";
 }
 
-// How often each command was called, frame by frame and in total.
-class Statistics {
- public:
-  void add(const session::LoggedCall& call) {
-    ++frames_[call.frame][call.name];
-    ++total_[call.name];
-    ++calls_;
-    errors_ += call.error != 0 ? 1 : 0;
-  }
-  std::uint64_t calls() const { return calls_; }
-  std::uint64_t errors() const { return errors_; }
+Json inJson(const session::CallStatistics& statistics) {
+  Json frames = Json::array();
+  for (const auto& [frame, counts] : statistics.frames)
+    frames.push_back({{"frame", frame}, {"calls", counts.commands}, {"origins", counts.origins}});
+  return {{"calls", statistics.calls},
+          {"errors", statistics.errors},
+          {"commands", statistics.total.commands},
+          {"origins", statistics.total.origins},
+          {"frames", frames}};
+}
 
-  Json json() const {
-    Json frames = Json::array();
-    for (const auto& [frame, counts] : frames_)
-      frames.push_back({{"frame", frame}, {"calls", sorted(counts)}});
-    return {{"calls", calls_}, {"errors", errors_}, {"commands", sorted(total_)}, {"frames", frames}};
-  }
+void printMostFirst(const std::map<std::string, std::uint64_t>& counts) {
+  std::vector<std::pair<std::string, std::uint64_t>> rows(counts.begin(), counts.end());
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  for (const auto& [name, count] : rows) std::cout << "  " << withThousands(count) << "  " << name << "\n";
+}
 
-  void print() const {
-    std::vector<std::pair<std::string, std::uint64_t>> rows(total_.begin(), total_.end());
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
-    for (const auto& [name, count] : rows) std::cout << "  " << withThousands(count) << "  " << name << "\n";
-    std::cout << withThousands(calls_) << (calls_ == 1 ? " call in " : " calls in ") << frames_.size()
-              << (frames_.size() == 1 ? " frame" : " frames") << ", " << withThousands(errors_)
-              << " of them with an error\n";
-  }
-
- private:
-  using Counts = std::map<std::string, std::uint64_t>;
-  static Json sorted(const Counts& counts) {
-    Json json = Json::object();
-    for (const auto& [name, count] : counts) json[name] = count;
-    return json;
-  }
-
-  std::map<std::uint64_t, Counts> frames_;
-  Counts total_;
-  std::uint64_t calls_ = 0, errors_ = 0;
-};
+void printStatistics(const session::CallStatistics& statistics) {
+  printMostFirst(statistics.total.commands);
+  std::cout << "which came with\n";
+  printMostFirst(statistics.total.origins);
+  std::cout << withThousands(statistics.calls) << (statistics.calls == 1 ? " call in " : " calls in ")
+            << statistics.frames.size() << (statistics.frames.size() == 1 ? " frame" : " frames") << ", "
+            << withThousands(statistics.errors) << " of them with an error\n";
+}
 
 int run(const Common& common, const Options& options) {
   session::CallFilter filter;
@@ -72,7 +58,7 @@ int run(const Common& common, const Options& options) {
 
   session::Session session(common.launchOptions());
   Json calls = Json::array();
-  Statistics statistics;
+  session::CallStatistics statistics;
   int first_thread = 0;
   session.forEachCall(filter, [&](const session::LoggedCall& call) {
     statistics.add(call);
@@ -84,11 +70,11 @@ int run(const Common& common, const Options& options) {
   if (common.json) {
     Json document;
     if (!options.statistics) document["calls"] = std::move(calls);
-    document["statistics"] = statistics.json();
+    document["statistics"] = inJson(statistics);
     print(document);
   } else if (options.statistics) {
-    statistics.print();
-  } else if (statistics.calls() == 0) {
+    printStatistics(statistics);
+  } else if (statistics.calls == 0) {
     std::cout << "no such call\n";
   }
   return 0;
@@ -106,7 +92,7 @@ void addCalls(CLI::App& app, Common& common, Action& action) {
       ->type_name("GLOB[,GLOB...]");
   command->add_flag("--errors", options->errors, "only calls that the driver answered with an error");
   command->add_flag("--stats", options->statistics,
-                    "how often each command was called, instead of the calls");
+                    "how often each command was called, and what it came with, instead of the calls");
   command->callback(
       [&common, &action, options] { action = [&common, options] { return run(common, *options); }; });
 }

@@ -1,10 +1,8 @@
 // shadestep profile: what each thread of a fragment shader costs.
 #include <algorithm>
-#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -12,35 +10,13 @@
 #include <optional>
 
 #include "cli/common.h"
+#include "cli/interruption.h"
 #include "cli/progress.h"
 #include "profiler/pictures/ticks.h"
 #include "profiler/profile_files.h"
 
 namespace shadestep::cli {
 namespace {
-
-// Set by the first interruption: measuring ends, and what was measured is written. The second ends the
-// program.
-std::atomic<bool> interrupted = false;
-
-void onInterrupt(int) {
-  if (interrupted.exchange(true)) std::_Exit(130);
-}
-
-// While it lives, SIGINT asks to stop instead of killing. The program under debug is started while the signal
-// is ignored, and inherits that: an interruption from the terminal reaches both, and must not end what is
-// measured.
-class InterruptGuard {
- public:
-  InterruptGuard() : before_(std::signal(SIGINT, SIG_IGN)) {}
-  ~InterruptGuard() { std::signal(SIGINT, before_); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-  void listen() { std::signal(SIGINT, onInterrupt); }
-
- private:
-  void (*before_)(int);
-};
 
 struct Options {
   std::string method = "auto";
@@ -83,7 +59,7 @@ profiler::ProfileOptions profileOptions(const Options& options) {
   result.repeats = options.repeats;
   result.textures = options.textures;
   result.neighbours = options.neighbours;
-  result.stop = [] { return interrupted.load(); };
+  result.stop = [] { return InterruptibleSession::noted(); };
   if (!options.roi.empty()) {
     const std::vector<int> roi = parseIntegers(options.roi, "--roi", 4, 4);
     if (roi[2] < 1 || roi[3] < 1) {
@@ -286,12 +262,12 @@ int run(const Common& common, const Options& options) {
     files.per_iteration_png = common.inOut("per-iteration.png");
     files.per_iteration_exr = common.inOut("per-iteration.exr");
   }
-  InterruptGuard guard;
-  session::Session session(common.launchOptions());
+  InterruptibleSession interruptible(common.launchOptions());
+  session::Session& session = interruptible.session();
   runToSelection(session, common);
   session.requireCapturable();
   if (options.per_iteration) requireLoop(session.shader());
-  guard.listen();
+  interruptible.on(InterruptibleSession::Action::note);
 
   profiler::Profile profile;
   {

@@ -34,7 +34,7 @@ std::string machineName(int machine) {
     case EM_X86_64:
       return "x86-64";
     case EM_386:
-      return "x86 (32-bit)";
+      return "x86";
     case EM_AARCH64:
       return "AArch64";
     case EM_ARM:

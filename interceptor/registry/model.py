@@ -7,6 +7,7 @@ Everything unknown or contradictory is an error: nothing is lost silently.
 
 from __future__ import annotations
 
+import dataclasses
 import fnmatch
 import re
 import tomllib
@@ -195,7 +196,7 @@ HOOKS = {"before", "after", "replace"}
 def apply_overlay(path: Path, apis: list[Api]) -> None:
     """Adds the overlay's meaning to the commands that it names and to their aliases."""
     overlay = tomllib.loads(path.read_text())
-    unknown = set(overlay) - {"draws", "not_draws", "present", "lists", "hooks"}
+    unknown = set(overlay) - {"draws", "not_draws", "present", "lists", "groups", "hooks"}
     if unknown:
         raise RegistryError(f"overlay: unknown section {sorted(unknown)}")
     commands = {c.name: c for api in apis for c in api.commands}
@@ -226,6 +227,14 @@ def apply_overlay(path: Path, apis: list[Api]) -> None:
                 raise RegistryError(f"overlay: no registry has a command {pattern}")
             for command in matching:
                 command.listed = reason
+    for group, parameters in overlay.get("groups", {}).items():
+        for name, parameter in (text.split(".") for text in parameters):
+            command = named(name)
+            if parameter not in [p.name for p in command.parameters]:
+                raise RegistryError(f"overlay: {name} has no parameter {parameter}")
+            command.parameters = [
+                dataclasses.replace(p, group=group) if p.name == parameter else p for p in command.parameters
+            ]
     for name, kinds in overlay["hooks"].items():
         if not set(kinds) <= HOOKS or ("replace" in kinds and len(kinds) > 1):
             raise RegistryError(f"overlay: {name}: hooks are before and after, or replace, not {kinds}")

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "launch.h"
 
@@ -131,6 +132,25 @@ TEST(EndToEnd, AProgramThatCannotBePreloadedIsSaidAsSuch) {
   EXPECT_THAT(debugged.err, HasSubstr("without loading the interceptor; 'shadestep doctor -- "));
   EXPECT_THAT(debugged.err, testing::Not(HasSubstr("before frame")));
   EXPECT_THAT(scratch.shadestep({"doctor"}, {program.string()}).out, HasSubstr("setuid"));
+}
+
+TEST(EndToEnd, AProgramOf32BitsIsSaidAsSuch) {
+  const Scratch scratch;
+  std::ofstream(scratch.file("exits.s"))
+      << ".globl _start\n_start: movl $1, %eax\nxorl %ebx, %ebx\nint $0x80\n";
+  const Finished made =
+      scratch.run({"sh", "-c", "as --32 exits.s -o exits.o && ld -m elf_i386 exits.o -o exits"});
+  if (made.status != 0 || scratch.run({"./exits"}).status != 0) GTEST_SKIP() << "no 32-bit programs here";
+  const Finished run = scratch.shadestep({"debug", "--pixel", "1,1"}, {"./exits"});
+  EXPECT_EQ(run.status, 5);
+  EXPECT_NE(run.err.find("'./exits' exited with status 0 without loading the interceptor; 'shadestep doctor"),
+            std::string::npos)
+      << run.err;
+  const Finished doctor = scratch.shadestep({"doctor"}, {"./exits"});
+  EXPECT_EQ(doctor.status, 1);
+  EXPECT_NE(doctor.out.find("32-bit x86; the interceptor of this build cannot be loaded into it"),
+            std::string::npos)
+      << doctor.out;
 }
 
 TEST(EndToEnd, NoProcessIsLeftBehind) {

@@ -339,5 +339,20 @@ TEST(BreakCommand, FollowsCommandsOnStdin) {
   EXPECT_NE(run.err.find("0: 102 255"), std::string::npos) << run.err;
 }
 
+TEST(BreakCommand, CtrlCPausesARunningProgram) {
+  const Scratch scratch;
+  const Finished run = scratch.run({"sh", "-c",
+                                    "printf 'run\nnext\n' | '" + binary("shadestep") +
+                                        "' break --at-call glClear --json -- '" + binary("programs/frames") +
+                                        "' 0 interrupt 5"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Json steps = run.json()["steps"];
+  ASSERT_EQ(steps.size(), 3U);
+  EXPECT_EQ(steps[0]["reason"], "call");
+  EXPECT_EQ(steps[1]["reason"], "interrupted");
+  EXPECT_GE(steps[1]["call"]["frame"], 5);
+  EXPECT_EQ(steps[2]["reason"], "next");
+}
+
 }  // namespace
 }  // namespace shadestep::test

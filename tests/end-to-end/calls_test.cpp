@@ -83,6 +83,25 @@ TEST(Calls, AreCountedByCommand) {
   EXPECT_EQ(document.at("statistics").at("commands").at("glDrawArrays"), 3);
 }
 
+TEST(Calls, AreCountedByWhatTheyCameWith) {
+  const Scratch scratch;
+  const Json statistics = callsOf(scratch, {"--stats"}, "several-draws").at("statistics");
+  const Json& commands = statistics.at("commands");
+  std::uint64_t of_gl2 = 0;  // those of this program; the specification's appendix says which they are
+  for (const char* name :
+       {"glCreateShader", "glShaderSource", "glCompileShader", "glCreateProgram", "glAttachShader",
+        "glLinkProgram", "glUseProgram", "glUniform4f", "glGetUniformLocation", "glGetShaderiv",
+        "glGetShaderInfoLog", "glGetProgramiv", "glGetProgramInfoLog", "glVertexAttribPointer",
+        "glEnableVertexAttribArray", "glBindAttribLocation"})
+    of_gl2 += commands.value(name, 0U);
+  EXPECT_GT(of_gl2, 0U);
+  EXPECT_EQ(statistics.at("origins").at("OpenGL 2.0"), of_gl2) << commands;
+  EXPECT_EQ(statistics.at("frames").at(0).at("origins"), statistics.at("origins"));
+  std::uint64_t all = 0;
+  for (const auto& [origin, count] : statistics.at("origins").items()) all += count.get<std::uint64_t>();
+  EXPECT_EQ(all, statistics.at("calls"));
+}
+
 TEST(Calls, OfAFrameThatIsNotThere) {
   const Scratch scratch;
   const Finished finished = scratch.shadestep({"calls", "--frame", "7"}, {binary("programs/several-draws")});

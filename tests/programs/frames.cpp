@@ -3,11 +3,13 @@
 //   frames N           N frames; 0: until it is killed
 //   frames N crash F   in frame F a draw reads where no memory is
 //   frames N exit F    frame F ends the program without exit handlers
+//   frames N interrupt F  in frame F Ctrl-C: SIGINT for itself and its parent, as a terminal sends it
 //   frames N fork      each frame in a child process of its own, which dies when it is done; the parent draws
 //   too
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES2/gl2.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -86,6 +88,10 @@ int main(int argc, char** argv) {
       waitpid(child, nullptr, 0);
     }
     if (mode == "exit" && frame == at) _exit(3);
+    if (mode == "interrupt" && frame == at) {
+      kill(getppid(), SIGINT);
+      raise(SIGINT);
+    }
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     glViewport(0, 0, kSize / 2, kSize);
