@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cli/common.h"
+#include "session/text.h"
 #include "session/thread_values.h"
 
 namespace shadestep::cli {
@@ -26,6 +27,7 @@ bool debugDraw(session::Session& session, std::string& last_reason) {
     }
     if (place.line == 0) return false;
     const session::ThreadValues values = session::valuesAt(session, place, {});
+    if (!values.check.identical()) last_reason = session::describe(values.check);
     return values.check.identical();
   } catch (const session::Error& error) {
     if (error.outcome() != session::Outcome::cannot_debug &&

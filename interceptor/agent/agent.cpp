@@ -54,6 +54,19 @@ Connection& connection() {
   return *one;
 }
 
+// While the session waits for a draw, threads that draw at once get their numbers and stop in one order: a
+// draw that has its number must not be overtaken on its way to the stop. Taken before any other lock.
+std::mutex& numbering() {
+  static auto* one = new std::mutex;
+  return *one;
+}
+
+// The number of the draw that begins.
+std::uint64_t countDraw() {
+  status.draws.fetch_add(1, kRelaxed);
+  return status.draw.fetch_add(1, kRelaxed);
+}
+
 bool reached(std::uint64_t frame, std::uint64_t draw) {
   const std::uint64_t wanted = stop_frame.load(kRelaxed);
   return frame > wanted || (frame == wanted && draw >= stop_draw.load(kRelaxed));
@@ -242,9 +255,12 @@ namespace shadestep::calls {
 
 void onDraw(const DrawCall& call) {
   if (compilesOnly()) return;
-  const std::uint64_t draw = status.draw.fetch_add(1, agent::kRelaxed);
-  status.draws.fetch_add(1, agent::kRelaxed);
-  if (!agent::armed.load(agent::kRelaxed)) return;
+  if (!agent::armed.load(agent::kRelaxed)) {
+    agent::countDraw();
+    return;
+  }
+  const std::lock_guard lock(agent::numbering());
+  const std::uint64_t draw = agent::countDraw();
   const std::uint64_t frame = status.frame.load(agent::kRelaxed);
   if (agent::reached(frame, draw)) agent::stopAtDraw(call, frame, draw);
 }

@@ -47,5 +47,13 @@ TEST(Threads, ThatDrawAtOnceAreStoppedOneAtATime) {
   EXPECT_LE(*threads.rbegin(), 8);
 }
 
+TEST(Threads, ThatDrawAtOnceAreStoppedInEveryDraw) {
+  const Scratch scratch;
+  const Finished run =
+      scratch.shadestep({"run", "--every-draw", "--json"}, {binary("programs/threads"), "100"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json(), Json({{"frames", 1}, {"draws", 800}, {"debugged", 800}}));
+}
+
 }  // namespace
 }  // namespace shadestep::test
