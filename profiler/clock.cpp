@@ -54,7 +54,7 @@ void requireSameThreads(const session::Captured& captured, const Profile& profil
 
 void explain(Profile& profile, const instrumenter::ShaderClock& clock, const Readings& readings) {
   profile.notes.push_back("Ticks of the driver's shader clock (" + clock.extension +
-                          ") from the start to the end of each thread, median of " +
+                          ") from the start to the end of each thread, lower quartile of " +
                           std::to_string(profile.passes) +
                           " passes, each scaled to the speed of the median pass.");
   if (profile.grain == Grain{})
@@ -94,12 +94,13 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
   const instrumenter::AttachmentShader& shader = orThrow(result);
   const session::Prepared prepared = session.prepare(shader);
 
-  // The first draw of a new program carries the driver's compilation; it gives the threads and the check.
+  // The first draw also gives the threads and the check. The driver's compilation is over before a thread
+  // starts.
   const session::Captured first = drawOnce(session, prepared, shader.layout, true);
   profile.check = first.execution.check;
   placeThreads(session.stage(), first, options, profile);
   Readings readings;
-  std::vector<std::vector<double>> passes;
+  std::vector<std::vector<double>> passes{ticksOf(first, profile.map, readings)};
   Passes combined;
   const auto wanted = static_cast<std::size_t>(std::max(options.passes, 2));
   for (;;) {

@@ -96,22 +96,20 @@ Grain detectGrain(const CostMap& map, const std::vector<double>& ticks) {
 
 namespace {
 
-double medianOf(const std::vector<std::vector<double>>& passes, const std::vector<double>& scale,
-                std::size_t pixel, std::size_t first, std::size_t step) {
+double quantileOf(const std::vector<std::vector<double>>& passes, const std::vector<double>& scale,
+                  std::size_t pixel, double p, std::size_t first = 0, std::size_t step = 1) {
   std::vector<double> values;
   for (std::size_t pass = first; pass < passes.size(); pass += step)
     if (!std::isnan(passes[pass][pixel])) values.push_back(passes[pass][pixel] / scale[pass]);
-  return median(std::move(values));
+  return quantile(std::move(values), p);
 }
 
-}  // namespace
-
-Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
-  Passes result;
+// How much slower than the median pass each was on the whole.
+std::vector<double> speeds(const std::vector<std::vector<double>>& ticks) {
   const std::size_t pixels = ticks.front().size();
   const std::vector<double> none(ticks.size(), 1.0);
   std::vector<double> middle(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) middle[i] = medianOf(ticks, none, i, 0, 1);
+  for (std::size_t i = 0; i < pixels; ++i) middle[i] = quantileOf(ticks, none, i, 0.5);
   std::vector<double> scale;
   for (const std::vector<double>& pass : ticks) {
     std::vector<double> ratios;
@@ -120,28 +118,39 @@ Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
     scale.push_back(ratios.empty() ? 1 : median(std::move(ratios)));
     if (!(scale.back() > 0)) scale.back() = 1;
   }
+  return scale;
+}
+
+}  // namespace
+
+Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
+  constexpr double kCounts = 0.25;  // this quantile
+  Passes result;
+  const std::size_t pixels = ticks.front().size();
+  const std::vector<double> scale = speeds(ticks);
   result.cost.resize(pixels);
   result.uncertainty.resize(pixels);
   result.halves = {std::vector<double>(pixels), std::vector<double>(pixels)};
   std::vector<double> spreads;
   std::vector<double> deviations;
   for (std::size_t i = 0; i < pixels; ++i) {
-    const double cost = medianOf(ticks, scale, i, 0, 1);
+    const double cost = quantileOf(ticks, scale, i, kCounts);
     if (std::isnan(cost)) continue;
     result.cost[i] = cost;
     if (!(cost > 0)) continue;
-    const double even = medianOf(ticks, scale, i, 0, 2);
-    const double odd = medianOf(ticks, scale, i, 1, 2);
+    const double even = quantileOf(ticks, scale, i, kCounts, 0, 2);
+    const double odd = quantileOf(ticks, scale, i, kCounts, 1, 2);
     const double half = std::abs(even - odd) / cost / 2;
     result.halves.even[i] = std::isnan(even) ? cost : even;
     result.halves.odd[i] = std::isnan(odd) ? cost : odd;
     if (!std::isnan(half)) spreads.push_back(half);
+    const double middle = quantileOf(ticks, scale, i, 0.5);
     deviations.clear();
     for (std::size_t pass = 0; pass < ticks.size(); ++pass)
-      if (!std::isnan(ticks[pass][i])) deviations.push_back(std::abs(ticks[pass][i] / scale[pass] - cost));
-    // 1.4826: standard deviation over median absolute deviation; 1.2533: a median's standard error over a
+      if (!std::isnan(ticks[pass][i])) deviations.push_back(std::abs(ticks[pass][i] / scale[pass] - middle));
+    // 1.4826: standard deviation over median absolute deviation; 1.3626: a quartile's standard error over a
     // mean's.
-    result.uncertainty[i] = 1.96 * 1.2533 * 1.4826 * median(deviations) /
+    result.uncertainty[i] = 1.96 * 1.3626 * 1.4826 * median(deviations) /
                             std::sqrt(static_cast<double>(std::max<std::size_t>(deviations.size(), 2) - 1));
   }
   result.spread = spreads.empty() ? 0 : median(std::move(spreads));

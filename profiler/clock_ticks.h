@@ -47,7 +47,8 @@ class TickReader {
 Grain detectGrain(const CostMap&, const std::vector<double>& ticks);
 
 // Passes over the same draw, [pass][pixel], NaN where there is none, made into one: every pass is divided by
-// how much slower than the median pass it was on the whole; of a pixel's passes the median counts.
+// how much slower than the median pass it was on the whole; of a pixel's passes the lower quartile counts:
+// what disturbs a thread adds, and may meet half of them.
 struct Passes {
   std::vector<double> cost;         // per pixel; 0 where no pass has one
   std::vector<double> uncertainty;  // per pixel: 95% half width

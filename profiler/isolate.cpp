@@ -1,8 +1,7 @@
 // Method `isolate` (Strengert 2010, 7.2.1): each measured pixel's thread alone, n x n times.
 //
-// Measured in rounds: a coarse grid first, then where the reconstruction is in doubt, until it is known well
-// enough, the time is over or all pixels are measured. Between the pixels, one of them drawn again and again
-// shows how the machine drifts.
+// Which pixels are measured, rounds.h decides. Between them, one drawn again and again shows how the machine
+// drifts.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,7 +10,7 @@
 #include "profiler/drift.h"
 #include "profiler/isolation.h"
 #include "profiler/profile_parts.h"
-#include "profiler/reconstruction.h"
+#include "profiler/rounds.h"
 #include "profiler/statistics.h"
 #include "profiler/work.h"
 
@@ -27,13 +26,7 @@ constexpr double kClear = 20;       // the work takes so many times the timer's 
 // ns; a draw this long is measured well on any clock. Where threads slept before, the first few hundred
 // microseconds run slowly: a smaller draw, of a quarter of the threads, must be longer than that.
 constexpr double kEnough = 2e6;
-constexpr int kSmallest = 16;        // fragments per side that leave a quarter worth a draw of its own
-constexpr std::size_t kCoarse = 64;  // one pixel in so many, at first
-constexpr double kNoisy = 0.5;
-constexpr int kMostRepeats = 60;
-constexpr std::size_t kFewest = 60;
-constexpr std::size_t kEnoughAtFirst = 400;  // samples, to look how well they do
-constexpr std::size_t kJudges = 25;          // held-out samples that an error needs to be believed
+constexpr int kSmallest = 16;  // fragments per side that leave a quarter worth a draw of its own
 
 double fastest(const std::vector<double>& times) {
   return *std::min_element(times.begin(), times.end());
@@ -85,27 +78,26 @@ Setup calibrate(Isolation& isolation, const ProfileOptions& options) {
   return setup;
 }
 
-class Measuring {
+class Measuring : public Measurable {
  public:
   Measuring(Isolation& isolation, const Setup& setup, const ProfileOptions& options)
       : isolation_(isolation),
         setup_(setup),
         options_(options),
         map_(isolation.covered()),
-        held_out_(map_.state.size()) {
+        judges_(map_.state.size()) {
     for (PixelState& state : map_.state)
       if (state == PixelState::measured) state = PixelState::reconstructed;
   }
 
-  // False: time is over, or it was asked to stop; what was measured until then is there.
-  bool measure(const std::vector<Sample>& plan) {
+  bool measure(const std::vector<Sample>& plan) override {
     std::vector<std::size_t> pixels;
     for (const Sample& sample : plan) {
       if (map_.state[sample.pixel] != PixelState::reconstructed) continue;  // by another pixel of its quad
       pixels.push_back(sample.pixel);
       for (const std::size_t pixel : sharing(sample.pixel)) {
         map_.state[pixel] = PixelState::measured;
-        held_out_[pixel] = sample.held_out ? 1 : 0;
+        judges_[pixel] = sample.judge ? 1 : 0;
       }
     }
     const std::size_t together = atOnce();
@@ -125,8 +117,7 @@ class Measuring {
     return !over();
   }
 
-  // The pixels measured so far once more: for less noise. As `measure`.
-  bool again() {
+  bool again() override {
     ++rounds_;
     for (std::size_t first = 0; first < pixels_.size() && !over(); first += atOnce())
       visit(first, std::min(atOnce(), pixels_.size() - first));
@@ -137,19 +128,20 @@ class Measuring {
   bool over() const { return !visits_.empty() && (stopped() || watch_.seconds() > options_.budget); }
   bool stopped() const { return options_.stop && options_.stop(); }
   double elapsed() const { return watch_.seconds(); }
-  const CostMap& map() const { return map_; }
-  const std::vector<std::uint8_t>& heldOut() const { return held_out_; }
-  const Timings& timings() const { return timings_; }
-  const Halves& halves() const { return halves_; }
+  const CostMap& map() const override { return map_; }
+  const std::vector<std::uint8_t>& judges() const override { return judges_; }
+  const Halves& halves() const override { return halves_; }
+  Grain shared() const override { return isolation_.quads() ? Grain{2, 2} : Grain{}; }
+  std::size_t measured() const override { return pixels_.size(); }
+  double noise() const { return timings_.noise; }
+  int repeats() const override { return rounds_ * options_.repeats; }
+  double spread() const { return timings_.spread; }
   // Threads whose work `timings` are about: those that a draw has beyond the small one.
   double threads() const {
     return isolation_.threadsDrawn(setup_.size) - (small() > 0 ? isolation_.threadsDrawn(small()) : 0);
   }
-  std::size_t measured() const { return pixels_.size(); }
-  bool quads() const { return isolation_.quads(); }
   double yardstick() const { return median(yardsticks_); }
   double yardstickNoise() const { return medianNoise(yardsticks_); }
-  int repeats() const { return rounds_ * options_.repeats; }  // of the pixels measured longest
 
  private:
   // Side of the small draws; 0: there are none.
@@ -218,7 +210,7 @@ class Measuring {
   const Setup& setup_;
   const ProfileOptions& options_;
   CostMap map_;
-  std::vector<std::uint8_t> held_out_;
+  std::vector<std::uint8_t> judges_;
   std::vector<Visit> visits_;
   std::vector<std::size_t> pixels_;  // in the order in which they were measured
   Timings timings_;
@@ -256,50 +248,6 @@ Guide guideFrom(const Counts& counts, const frontend::Shader& shader, const Cost
     guide.prior.push_back(weight);
   }
   return guide;
-}
-
-// Measures in rounds until it is enough; the estimate of the last round.
-Estimate measureInRounds(Measuring& measuring, const Setup& setup, const Guide& guide, std::size_t covered,
-                         const ProfileOptions& options) {
-  const std::size_t pixels_per_sample = measuring.quads() ? 4 : 1;
-  const double samples = static_cast<double>(covered) / static_cast<double>(pixels_per_sample);
-  const double left = options.budget - measuring.elapsed();
-  const double affordable = std::max<double>(16, left / std::max(setup.per_pixel, 1e-7));
-  const bool all = !options.error && !options.share && affordable >= samples;
-  std::size_t first =
-      std::clamp(covered / pixels_per_sample / kCoarse, std::min(kFewest, covered), kEnoughAtFirst);
-  if (all || (options.share && *options.share >= 1))
-    first = covered;
-  else if (options.share)
-    first = std::max<std::size_t>(4, static_cast<std::size_t>(std::lround(*options.share * samples)));
-  else
-    first = std::min(first, static_cast<std::size_t>(std::max(16.0, affordable / 2)));
-
-  bool more = measuring.measure(planSamples(measuring.map(), first));
-  for (unsigned round = 1;; ++round) {
-    Estimate result = estimate(measuring.map(), measuring.heldOut(), guide);
-    const bool enough = options.error && result.quality.held_out >= kJudges * pixels_per_sample &&
-                        result.quality.error <= *options.error;
-    if (options.progress) {
-      const double by_time = measuring.elapsed() / options.budget;
-      const double by_pixels = static_cast<double>(measuring.measured()) / samples;
-      options.progress(std::min(1.0, std::max(by_time, by_pixels)));
-    }
-    if (!more || enough || options.share) return result;
-    // The error at held-out pixels holds the noise of their own measurement: where that is most of it, more
-    // pixels would not help.
-    if (measuring.timings().noise > kNoisy * result.quality.error && measuring.repeats() < kMostRepeats) {
-      more = measuring.again();
-      continue;
-    }
-    const std::size_t now = measuring.measured();
-    const auto spacing =
-        static_cast<int>(std::sqrt(static_cast<double>(covered) / static_cast<double>(now)) / 2);
-    const std::vector<Sample> next =
-        refine(measuring.map(), result.doubt, std::max<std::size_t>(kBlock, now / 3), spacing, round);
-    if (next.empty()) return result;  // all is measured
-    more = measuring.measure(next);
-  }
 }
 
 void explain(Profile& profile, const Setup& setup, const Isolation& isolation) {
@@ -364,28 +312,30 @@ Profile profileIsolate(session::Session& session, const ProfileOptions& options)
     if (error.outcome() != session::Outcome::cannot_debug) throw;
     profile.notes.push_back(std::string("Nothing could be counted: ") + error.what() + ".");
   }
-  const std::size_t covered = isolation.covered().costs().size();
   if (options.budget < setup.per_pixel)
     throw session::Error(session::Outcome::usage,
                          "--budget is too small to measure a single pixel, which takes " +
                              std::to_string(setup.per_pixel) + " s here");
   Measuring measuring(isolation, setup, options);
-  const Estimate result = measureInRounds(
-      measuring, setup, guideFrom(counts, shader, isolation.covered(), profile.grain), covered, options);
+  const Guide guide = guideFrom(counts, shader, isolation.covered(), profile.grain);
+  const Goal goal{options.error, options.share, options.budget / std::max(setup.per_pixel, 1e-7)};
+  const Estimate result = measureInRounds(measuring, guide, goal, [&](double share) {
+    if (options.progress)
+      options.progress(std::min(1.0, std::max(share, measuring.elapsed() / options.budget)));
+  });
   profile.interrupted = measuring.stopped();
   profile.passes = measuring.repeats();
 
   profile.map = measuring.map();
   profile.map.cost = result.cost;
   profile.halves = measuring.halves();
-  const Timings& timings = measuring.timings();
-  profile.spread = timings.spread;
+  profile.spread = measuring.spread();
   profile.yardstick = measuring.yardstick();
   profile.yardstick_noise = measuring.yardstickNoise();
   if (std::find(profile.map.state.begin(), profile.map.state.end(), PixelState::reconstructed) !=
       profile.map.state.end())
     profile.reconstruction = result.quality;
-  const double measured_error = 1.96 * timings.noise;
+  const double measured_error = 1.96 * measuring.noise();
   const double reconstructed_error = 1.96 * result.quality.error;
   profile.uncertainty.resize(profile.map.cost.size());
   for (std::size_t i = 0; i < profile.uncertainty.size(); ++i)

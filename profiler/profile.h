@@ -33,10 +33,10 @@ const char* methodName(Method);
 
 struct ProfileOptions {
   std::optional<Region> roi;    // nothing else is profiled; parts outside the draw's target are ignored
-  int passes = 5;               // clock: draws; at least 2. With `error`: at least so many
+  int passes = 6;               // clock: draws; at least 2. With `error`: at least so many
   double budget = 12;           // seconds of measuring (isolate, and clock with `error`); may be infinite
   std::optional<double> error;  // stop once the map is known this well: 0.05 = 5% (isolate: of the
-                                // reconstruction; clock: between halves of the passes)
+                                // reconstruction, with 95% confidence; clock: between halves of the passes)
   std::optional<double>
       share;                // isolate: measure this share of the pixels on a regular grid, no more, no fewer
   std::optional<int> size;  // isolate: fragments per side of a measured draw, instead of a calibrated number
@@ -51,12 +51,16 @@ struct ProfileOptions {
   std::function<bool()> stop;
 };
 
-// How well pixels that were not measured are known: pixels measured but withheld from the reconstruction. No
-// held-out pixels: the errors are not known (NaN).
+// How well a map is known of which not all pixels were measured: by pixels that were, but are withheld from
+// the reconstruction, in turns. No held-out pixels: the errors are not known (NaN).
 struct Reconstruction {
   std::size_t held_out = 0;
-  double error = 0;  // root mean square of (reconstructed - measured), over the mean of what was measured
-  double median_error = 0;  // median of |reconstructed - measured| / measured
+  // Root mean square of (map - truth), over the mean of what was measured. A held-out pixel has noise of its
+  // own, which is not in it: that of the two halves of its repeats is independent, so the mean of
+  // (reconstructed - one half) (reconstructed - other half) lacks it.
+  double error = 0;
+  double error_below = 0;   // with 95% confidence
+  double median_error = 0;  // median of |reconstructed - measured| / measured, with that noise
   double total_error = 0;   // of the sum over all pixels: 95% half width, as a share of the sum
 };
 

@@ -103,8 +103,9 @@ HeatMapText textFor(const Profile& profile, const std::string& what) {
     measured += ", " + readable(static_cast<double>(profile.measured), 12) + " of them measured (" +
                 percent(static_cast<double>(profile.measured) / static_cast<double>(profile.covered)) +
                 "); the rest reconstructed, error " + percent(profile.reconstruction->error) +
-                " (root mean square) on " + std::to_string(profile.reconstruction->held_out) +
-                " held-out pixels";
+                " (root mean square), with 95 % confidence below " +
+                percent(profile.reconstruction->error_below) + ", by " +
+                std::to_string(profile.reconstruction->held_out) + " held-out pixels";
   if (profile.passes > 1)
     measured += "; " + std::to_string(profile.passes) + " measurements each, reproducible to " +
                 percent(profile.spread);
@@ -189,13 +190,22 @@ HeatMapText differenceText(const Profile& profile, const Comparison& comparison,
 }
 
 std::string threadsCsv(const Profile& profile) {
-  std::string text;
+  const bool fragments = profile.stage == session::Stage::fragment;
+  std::string text = fragments ? "x,y," : "";
   for (const std::string& name : profile.threads.names) text += name + ",";
-  text += profile.unit + "\n";
-  for (std::size_t i = 0; i < profile.threads.numbers.size(); ++i) {
+  text += profile.unit + ",uncertainty,measured\n";
+  const std::size_t threads = fragments ? profile.map.cost.size() : profile.threads.numbers.size();
+  for (std::size_t i = 0; i < threads; ++i) {
+    if (profile.map.state[i] == PixelState::none) continue;
+    if (fragments) {
+      const auto width = static_cast<std::size_t>(profile.map.width);
+      text += std::to_string(i % width) + "," + std::to_string(i / width) + ",";
+    }
     for (std::size_t name = 0; name < profile.threads.names.size(); ++name)
       text += profile.threads.text(i, name) + ",";
-    text += exactText(profile.map.cost[i]) + "\n";
+    text += exactText(profile.map.cost[i]) + ",";
+    text += exactText(i < profile.uncertainty.size() ? profile.uncertainty[i] : 0);
+    text += profile.map.state[i] == PixelState::measured ? ",1\n" : ",0\n";
   }
   return text;
 }
@@ -304,6 +314,7 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
   if (profile.reconstruction)
     document["reconstruction"] = {{"held_out", profile.reconstruction->held_out},
                                   {"error", number(profile.reconstruction->error)},
+                                  {"error_below", number(profile.reconstruction->error_below)},
                                   {"median_error", number(profile.reconstruction->median_error)},
                                   {"total_error", number(profile.reconstruction->total_error)}};
   if (profile.same_output)
@@ -347,7 +358,7 @@ Json toJson(const Profile& profile, const ProfileFiles& files, const Subject& su
                        {"height.png", files.height_png},
                        {"profile.json", files.profile_json},
                        {"report.html", files.report_html}};
-  if (profile.stage != session::Stage::fragment) document["files"]["threads.csv"] = files.threads_csv;
+  if (!files.threads_csv.empty()) document["files"]["threads.csv"] = files.threads_csv;
   if (!files.per_iteration_png.empty()) {
     document["files"]["per-iteration.png"] = files.per_iteration_png;
     document["files"]["per-iteration.exr"] = files.per_iteration_exr;
@@ -377,7 +388,7 @@ void writeProfile(const Profile& profile, const ProfileFiles& files, const Subje
     for (const double d : comparison->difference) difference.push_back(rounded(d));
     writeExr(files.difference_exr, profile.map.width, profile.map.height, {{"Y", difference}});
   }
-  if (profile.stage != session::Stage::fragment) writeFile(files.threads_csv, threadsCsv(profile));
+  if (!files.threads_csv.empty()) writeFile(files.threads_csv, threadsCsv(profile));
   if (!files.per_iteration_png.empty()) writePerIteration(profile, files, subject.what);
   if (profile.neighbours) writeNeighbours(profile, files, subject.what);
   std::vector<ReportPicture> pictures;

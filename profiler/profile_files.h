@@ -17,7 +17,8 @@ struct ProfileFiles {
   std::string height_png;    // the same as a landscape
   std::string profile_json;  // the document below
   std::string report_html;   // all of it to look at in a browser, offline
-  std::string threads_csv;   // of other stages than the fragment stage: who each thread is, and its cost
+  std::string threads_csv;  // a row per thread: who it is, its cost, its uncertainty, whether it was measured
+                            // (1) or reconstructed (0); empty: not wanted
   std::string per_iteration_png,
       per_iteration_exr;                       // cost over iterations of the busiest loop; empty: not wanted
   std::string difference_png, difference_exr;  // with a comparison; channel Y: now - before

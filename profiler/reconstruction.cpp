@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 
@@ -13,7 +14,7 @@ namespace shadestep::profiler {
 namespace {
 
 constexpr std::size_t kMostRows = 8000;  // of the fit
-constexpr double kHeldOutShare = 0.1;
+constexpr std::size_t kTurns = 5;        // in which judges are withheld
 
 using Known = std::vector<std::uint8_t>;
 
@@ -107,53 +108,141 @@ std::vector<double> doubtOf(const CostMap& map, const Known& known, const std::v
   return doubt;
 }
 
-Reconstruction judge(const CostMap& map, const Known& held_out, const Reconstructed& judged, double share,
-                     std::size_t not_measured, std::size_t covered) {
-  std::vector<double> relative;
-  std::vector<double> differences;
-  double sum = 0;
-  for (std::size_t i = 0; i < held_out.size(); ++i) {
-    if (held_out[i] == 0 || map.state[i] != PixelState::measured) continue;
-    differences.push_back(judged.at(i, share) - map.cost[i]);
-    sum += map.cost[i];
-    if (map.cost[i] > 0) relative.push_back(std::abs(differences.back()) / map.cost[i]);
+// An upper bound of the mean of so many independent values, 95 times in 100. Squared errors have a long tail,
+// which a sample shows too little of: Johnson's t for skewed distributions (1978) takes that into account.
+double meanBelow(const std::vector<double>& values, double independent) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double second = 0;
+  double third = 0;
+  for (const double value : values) {
+    second += (value - mean) * (value - mean) / n;
+    third += (value - mean) * (value - mean) * (value - mean) / n;
   }
-  Reconstruction quality;
-  quality.held_out = differences.size();
-  const auto n = static_cast<double>(differences.size());
-  const double squares = std::inner_product(differences.begin(), differences.end(), differences.begin(), 0.0);
-  const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
-  quality.error = std::sqrt(squares / n) / (sum / n);
-  quality.median_error = median(std::move(relative));
-  // The mean difference is known to within its standard error, and concerns what was not measured.
-  const double deviation = std::sqrt(std::max(0.0, squares / n - mean * mean) / std::max(1.0, n - 1));
-  quality.total_error = (std::abs(mean) + 1.96 * deviation) / (sum / n) * static_cast<double>(not_measured) /
-                        static_cast<double>(std::max<std::size_t>(covered, 1));
-  return quality;
+  if (!(second > 0)) return mean;
+  constexpr double kQuantile = 1.645;
+  const double skewness = std::max(0.0, third / std::pow(second, 1.5));
+  const double shift = skewness / (6 * std::sqrt(independent)) * (1 + 2 * kQuantile * kQuantile);
+  return mean + (kQuantile + shift) * std::sqrt(second / std::max(1.0, independent - 1));
+}
+
+// The pixels that judge, and what the reconstruction says of each without it.
+class Jury {
+ public:
+  Jury(const CostMap& map, const Known& judges, const Guide& guide, const Halves& halves, Grain shared)
+      : map_(map), halves_(halves) {
+    std::map<std::pair<int, int>, std::vector<std::size_t>> cells;
+    for (std::size_t i = 0; i < map.state.size(); ++i) {
+      if (map.state[i] != PixelState::measured) continue;
+      known_.push_back(i);
+      if (judges[i] == 0) continue;
+      const int x = static_cast<int>(i) % map.width;
+      const int y = static_cast<int>(i) / map.width;
+      cells[{y / shared.height, x / shared.width}].push_back(i);
+    }
+    independent_ = static_cast<double>(cells.size());
+    std::vector<std::vector<std::size_t>> shuffled;
+    for (auto& [cell, pixels] : cells) shuffled.push_back(std::move(pixels));
+    std::mt19937 random(1);
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    for (std::size_t turn = 0; turn < std::min(kTurns, shuffled.size()); ++turn) {
+      Known known(map.state.size());
+      for (const std::size_t i : known_) known[i] = 1;
+      for (std::size_t cell = turn; cell < shuffled.size(); cell += kTurns)
+        for (const std::size_t i : shuffled[cell]) known[i] = 0;
+      const Reconstructed without = reconstruct(map, known, guide);
+      for (std::size_t cell = turn; cell < shuffled.size(); cell += kTurns)
+        for (const std::size_t i : shuffled[cell]) {
+          pixels_.push_back(i);
+          said_.predicted.push_back(without.predicted[i]);
+          said_.missed.push_back(without.missed[i]);
+        }
+    }
+  }
+
+  // Of a reconstruction with this share of what the fit misses.
+  Reconstruction judge(double share) const {
+    std::vector<double> relative;
+    std::vector<double> differences;
+    std::vector<double> squares;
+    double sum = 0;
+    for (std::size_t j = 0; j < pixels_.size(); ++j) {
+      const std::size_t i = pixels_[j];
+      const double found = said_.at(j, share);
+      differences.push_back(found - map_.cost[i]);
+      squares.push_back(halves_.even.empty() ? differences.back() * differences.back()
+                                             : (found - halves_.even[i]) * (found - halves_.odd[i]));
+      sum += map_.cost[i];
+      if (map_.cost[i] > 0) relative.push_back(std::abs(differences.back()) / map_.cost[i]);
+    }
+    const auto n = static_cast<double>(pixels_.size());
+    const double covered = static_cast<double>(map_.costs().size());
+    const double open = std::max(0.0, covered - static_cast<double>(known_.size())) / std::max(1.0, covered);
+    const double noise = noiseSquared();
+    const auto ofMap = [&](double squared) {
+      return std::sqrt(open * std::max(0.0, squared) + (1 - open) * noise) / (sum / n);
+    };
+    Reconstruction quality;
+    quality.held_out = pixels_.size();
+    quality.error = ofMap(std::accumulate(squares.begin(), squares.end(), 0.0) / n);
+    quality.error_below = ofMap(meanBelow(squares, independent_));
+    quality.median_error = median(std::move(relative));
+    // The mean difference is known to within its standard error, and concerns what was not measured.
+    const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
+    double variance = 0;
+    for (const double difference : differences) variance += (difference - mean) * (difference - mean) / n;
+    const double deviation = std::sqrt(variance / std::max(1.0, independent_ - 1));
+    quality.total_error = (std::abs(mean) + 1.96 * deviation) / (sum / n) * open;
+    return quality;
+  }
+
+  // Root mean square of the measured pixels' own noise, over their mean.
+  double noise() const {
+    double sum = 0;
+    for (const std::size_t i : known_) sum += map_.cost[i];
+    return sum > 0 ? std::sqrt(noiseSquared()) / (sum / static_cast<double>(known_.size())) : 0;
+  }
+
+ private:
+  // Halves differ by twice the noise of the whole.
+  double noiseSquared() const {
+    double squares = 0;
+    for (const std::size_t i : known_)
+      if (!halves_.even.empty()) squares += std::pow((halves_.even[i] - halves_.odd[i]) / 2, 2);
+    return squares / static_cast<double>(std::max<std::size_t>(known_.size(), 1));
+  }
+
+  const CostMap& map_;
+  const Halves& halves_;
+  std::vector<std::size_t> known_, pixels_;
+  Reconstructed said_;  // of pixels_
+  double independent_ = 0;
+};
+
+std::vector<std::size_t> openPixels(const CostMap& map, std::mt19937& random) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < map.state.size(); ++i)
+    if (map.state[i] == PixelState::reconstructed) open.push_back(i);
+  std::shuffle(open.begin(), open.end(), random);
+  return open;
 }
 
 }  // namespace
 
-Estimate estimate(const CostMap& map, const Known& held_out, const Guide& guide) {
+Estimate estimate(const CostMap& map, const Known& judges, const Guide& guide, const Halves& halves,
+                  Grain shared) {
   Known known(map.state.size());
-  Known fed(map.state.size());
-  std::size_t covered = 0;
-  std::size_t measured = 0;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    covered += map.state[i] != PixelState::none ? 1 : 0;
-    measured += map.state[i] == PixelState::measured ? 1 : 0;
-    known[i] = map.state[i] == PixelState::measured ? 1 : 0;
-    fed[i] = known[i] != 0 && held_out[i] == 0 ? 1 : 0;
-  }
+  for (std::size_t i = 0; i < known.size(); ++i) known[i] = map.state[i] == PixelState::measured ? 1 : 0;
+  const Jury jury(map, judges, guide, halves, shared);
   Estimate result;
-  // How much of what the fit misses to believe is the one thing that the held-out pixels decide.
-  const Reconstructed judged = reconstruct(map, fed, guide);
+  result.noise = jury.noise();
+  // How much of what the fit misses to believe is the one thing that the judges decide.
   double share = 1;
-  result.quality = judge(map, held_out, judged, share, covered - measured, covered);
+  result.quality = jury.judge(share);
   if (!guide.planes.empty() && result.quality.held_out > 0)
     for (const double other : {0.75, 0.5, 0.25, 0.0}) {
-      const Reconstruction quality = judge(map, held_out, judged, other, covered - measured, covered);
-      if (quality.error >= result.quality.error) continue;
+      const Reconstruction quality = jury.judge(other);
+      if (quality.error_below >= result.quality.error_below) continue;
       result.quality = quality;
       share = other;
     }
@@ -171,16 +260,11 @@ Estimate estimate(const CostMap& map, const Known& held_out, const Guide& guide)
 
 std::vector<Sample> refine(const CostMap& map, const std::vector<double>& doubt, std::size_t count,
                            int spacing, unsigned round) {
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < map.state.size(); ++i)
-    if (map.state[i] == PixelState::reconstructed) open.push_back(i);
   std::mt19937 random(round);
-  std::shuffle(open.begin(), open.end(), random);
-
-  const auto wanted_held_out =
-      static_cast<std::size_t>(std::ceil(kHeldOutShare * static_cast<double>(count)));
+  std::vector<std::size_t> open = openPixels(map, random);
   std::vector<Sample> chosen;
-  for (std::size_t i = 0; i < std::min(wanted_held_out, open.size()); ++i) chosen.push_back({open[i], true});
+  for (std::size_t i = 0; i < std::min(scatteredOf(count), open.size()); ++i)
+    chosen.push_back({open[i], true});
   open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(chosen.size()));
 
   std::stable_sort(open.begin(), open.end(),
@@ -198,6 +282,14 @@ std::vector<Sample> refine(const CostMap& map, const std::vector<double>& doubt,
     chosen.push_back({pixel, false});
   }
   std::shuffle(chosen.begin(), chosen.end(), random);
+  return chosen;
+}
+
+std::vector<Sample> moreJudges(const CostMap& map, std::size_t count, unsigned round) {
+  std::mt19937 random(round);
+  std::vector<Sample> chosen;
+  for (const std::size_t pixel : openPixels(map, random))
+    if (chosen.size() < count) chosen.push_back({pixel, true});
   return chosen;
 }
 

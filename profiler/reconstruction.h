@@ -27,15 +27,23 @@ struct Estimate {
   std::vector<double> cost;   // per pixel; measured ones keep theirs
   std::vector<double> doubt;  // per pixel: how far off it is likely to be; 0 at measured ones
   Reconstruction quality;
+  double noise = 0;  // of the measured pixels: root mean square, over the mean of what was measured
 };
 
-// Of a map whose `measured` pixels have a cost: all that is not none gets one. `held_out` pixels are
-// measured; their costs are used for the result, but the quality is of a reconstruction without them.
-Estimate estimate(const CostMap&, const std::vector<std::uint8_t>& held_out, const Guide&);
+// Of a map whose `measured` pixels have a cost: all that is not none gets one. `judges` are pixels that were
+// chosen whatever is known of their costs (Sample::judge): in turns a fifth of them is withheld, and the
+// reconstruction without them compared with them. `halves`: what half of the repeats say, empty where costs
+// are exact. Pixels of one `shared` cell have one measurement: they are withheld together and tell as much as
+// one.
+Estimate estimate(const CostMap&, const std::vector<std::uint8_t>& judges, const Guide&,
+                  const Halves& halves = {}, Grain shared = {});
 
-// The next pixels to measure: where the doubt is large, spread out, at most one in each square of `spacing`
-// pixels; a tenth of them held out, anywhere. The same for the same input and `round`.
+// The next pixels to measure: some of them (scatteredOf) anywhere, the others where the doubt is large,
+// spread out, at most one in each square of `spacing` pixels. The same for the same input and `round`.
 std::vector<Sample> refine(const CostMap&, const std::vector<double>& doubt, std::size_t count, int spacing,
                            unsigned round);
+
+// The next pixels to measure where the reconstruction seems good, but too few pixels say so: judges only.
+std::vector<Sample> moreJudges(const CostMap&, std::size_t count, unsigned round);
 
 }  // namespace shadestep::profiler

@@ -31,7 +31,7 @@ ROUNDS = 3
 
 SETTINGS = (
     [("count", "", [])]
-    + [("clock", f"{n} passes", ["--passes", str(n)]) for n in (2, 5, 15)]
+    + [("clock", f"{n} passes", ["--passes", str(n)]) for n in (2, 6, 15)]
     + [("isolate", f"share 1/{n}", ["--share", str(1 / n)]) for n in (256, 64, 16, 4)]
     + [("isolate", f"share 1/16, {n} repeats", ["--share", str(1 / 16), "--repeats", str(n)]) for n in (2, 15)]
     + [("isolate", f"share 1/16, {n} x {n} fragments", ["--share", str(1 / 16), "--fragments", str(n)])
@@ -135,8 +135,8 @@ def figures(size, rounds):
     rows = []
     row = lambda figure, value, best, remark: rows.append(
         {"figure": figure, "value": f"{value:.4f}", "best": best if isinstance(best, str) else f"{best:.4f}", "remark": remark})
-    spreads = [Map(program, "clock", ["--passes", "5"]).profile["spread"] for _ in range(3 * rounds)]
-    many = [Map(program, "clock", ["--passes", "20"]).profile["spread"] for _ in range(rounds)]
+    spreads = [Map(program, "clock", ["--passes", "6"]).profile["spread"] for _ in range(3 * rounds)]
+    many = [Map(program, "clock", ["--passes", "21"]).profile["spread"] for _ in range(rounds)]
     row("clock: spread of 6 draws", statistics.median(spreads), statistics.median(many), "best: 21 draws")
     paid = [neighbours(program, 20)["neighbours"] for _ in range(rounds)]
     for which, name in (("agreement_all", "by the dearest thread"), ("agreement", "without divergence")):

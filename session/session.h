@@ -156,7 +156,7 @@ struct ExecuteOptions {
   bool read_captures = true;
   int repeats = 1;
   int covering_size = 64;  // with a Covering program
-  // With a Covering program: every repeat draws once per set, with these uniforms beside `uniforms`.
+  // Not in replays of fragments: every repeat draws once per set, with these uniforms beside `uniforms`.
   std::vector<std::vector<Uniform>> sets;
 };
 

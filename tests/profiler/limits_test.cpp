@@ -241,6 +241,28 @@ TEST_F(Limits, neighbours_of_dear_pixels_pay_and_dear_pixels_do_not) {
   EXPECT_LT(std::abs(median(dear)), median(cheap));
 }
 
+// Blocks that differ in cost, but not inside: nobody waits, and costs differ by far more than any noise, so
+// the three methods must put them into one order.
+TEST_F(Limits, threads_that_do_the_same_as_their_neighbours_rank_alike_by_every_method) {
+  session::Session& session = draw(
+      oldShader(
+          "ivec2 block = ivec2(gl_FragCoord.xy) / 32;\nint n = int(40.0 * pow(1.4, float((5 * block.x + "
+          "7 * block.y) % 16)));\nfloat x = 0.3;\nfor (int i = 0; i < n; ++i)\nx = 3.7 * x * (1.0 - x);\n"
+          "color = vec4(x);"),
+      "shader-file", "128");
+  ProfileOptions options;
+  options.neighbours = true;
+  options.share = 0.005;
+  options.budget = 100;
+  const Profile clock = profileBy("clock", session, options);
+  ASSERT_TRUE(clock.neighbours.has_value());
+  const NeighbourCost::Agreement& same = clock.neighbours->same;
+  for (const RankAgreement* agreement : {&same.clock_isolate, &same.clock_count, &same.isolate_count}) {
+    EXPECT_GT(agreement->pixels, 30U);
+    EXPECT_GE(agreement->rho, 0.95);
+  }
+}
+
 // Where CPU time stands still the wall clock is taken, and that is said; where that lies too, nothing is
 // measured.
 TEST_F(Limits, timers_that_lie_are_not_believed) {

@@ -14,7 +14,7 @@ Profile example() {
   profile.map = CostMap(3, 2);
   profile.passes = 4;
   profile.total = 0.1;
-  profile.reconstruction = Reconstruction{10, 0.05, 0.03, 0.01};
+  profile.reconstruction = Reconstruction{10, 0.05, 0.07, 0.03, 0.01};
   profile.lines = {{12, 34, std::nullopt, 0}, {13, 1, 0.25, 1}};
   profile.check.compared_at_all = true;
   profile.check.compared = 24;
@@ -35,6 +35,7 @@ TEST(ProfileDocument, has_the_fields_of_the_command_line_s_promise) {
   EXPECT_EQ(document["method"], "isolate");
   EXPECT_EQ(document["width"], 3);
   EXPECT_EQ(document["reconstruction"]["held_out"], 10);
+  EXPECT_EQ(document["reconstruction"]["error_below"], 0.07);
   EXPECT_EQ(document["lines"][0]["hits"], 34);
   EXPECT_FALSE(document["lines"][0].contains("share")) << "a share nobody measured";
   EXPECT_EQ(document["lines"][1]["share"], 0.25);
