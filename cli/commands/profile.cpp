@@ -23,8 +23,9 @@ struct Options {
   std::string roi;
   std::string error;
   std::string compare;
+  std::string csv;
   std::optional<double> budget;
-  int passes = 5;
+  int passes = 6;
   bool no_lines = false;
   std::optional<double> share;
   std::optional<int> fragments;
@@ -151,9 +152,12 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
               cost(profile.median).c_str(), cost(profile.p95).c_str(),
               profiler::readable(100 * profile.spread, 2).c_str());
   if (profile.reconstruction)
-    std::printf("the rest reconstructed: error %s %% (root mean square) on %zu held-out pixels\n",
-                profiler::readable(100 * profile.reconstruction->error, 2).c_str(),
-                profile.reconstruction->held_out);
+    std::printf(
+        "the rest reconstructed: error %s %% (root mean square), with 95 %% confidence below %s %%, by %zu "
+        "held-out pixels\n",
+        profiler::readable(100 * profile.reconstruction->error, 2).c_str(),
+        profiler::readable(100 * profile.reconstruction->error_below, 2).c_str(),
+        profile.reconstruction->held_out);
   if (profile.neighbours) printNeighbours(*profile.neighbours, profile.unit);
   std::cout << describe(profile.check) << "\n";
   for (const std::string& note : profile.notes) std::cout << "note: " << note << "\n";
@@ -216,7 +220,7 @@ void printFiles(const profiler::ProfileFiles& files, const profiler::Profile& pr
               files.heat_exr.c_str(), files.height_png.c_str(), files.profile_json.c_str());
   if (compared) std::printf(", %s, %s", files.difference_png.c_str(), files.difference_exr.c_str());
   if (profile.neighbours) std::printf(", %s, %s", files.neighbours_png.c_str(), files.neighbours_exr.c_str());
-  if (profile.stage != session::Stage::fragment) std::printf(", %s", files.threads_csv.c_str());
+  if (!files.threads_csv.empty()) std::printf(", %s", files.threads_csv.c_str());
   if (!files.per_iteration_png.empty())
     std::printf(", %s, %s", files.per_iteration_png.c_str(), files.per_iteration_exr.c_str());
   if (profile.textures) std::printf(", %s*.png, %s*.exr", files.texture.c_str(), files.texture.c_str());
@@ -232,7 +236,6 @@ profiler::ProfileFiles filesIn(const Common& common) {
   files.report_html = common.inOut("report.html");
   files.difference_png = common.inOut("difference.png");
   files.difference_exr = common.inOut("difference.exr");
-  files.threads_csv = common.inOut("threads.csv");
   files.neighbours_png = common.inOut("neighbours.png");
   files.neighbours_exr = common.inOut("neighbours.exr");
   files.texture = common.inOut("texture-");
@@ -267,6 +270,9 @@ int run(const Common& common, const Options& options) {
   runToSelection(session, common);
   session.requireCapturable();
   if (options.per_iteration) requireLoop(session.shader());
+  // Who the threads of other stages are, no picture tells.
+  if (!options.csv.empty() || session.stage() != session::Stage::fragment)
+    files.threads_csv = common.inOut(options.csv.empty() ? "threads.csv" : options.csv);
   interruptible.on(InterruptibleSession::Action::note);
 
   profiler::Profile profile;
@@ -322,7 +328,7 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
           "seconds to measure (12, or with --error until that is reached); isolate: decides how many pixels")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
-  command->add_option("--passes", options->passes, "clock: draws, of which the median counts")
+  command->add_option("--passes", options->passes, "clock: draws, of which the lower quartile counts")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -335,15 +341,19 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
   command->add_flag("--textures", options->textures,
                     "also map where textures are read, and how often: texture-SAMPLER-levelN.png and .exr");
   command
-      ->add_option(
-          "--error", options->error,
-          "measure until the map is known this well (isolate: at held-out pixels; clock: between passes)")
+      ->add_option("--error", options->error,
+                   "measure until the map is known this well (isolate: with 95 % confidence, by held-out "
+                   "pixels; clock: between passes)")
       ->type_name("P%");
   command
       ->add_option(
           "--compare", options->compare,
           "an earlier run's profile.json (its heat.exr beside it): what became cheaper and what dearer; "
           "status 1 if this run is dearer beyond the noise")
+      ->type_name("FILE");
+  command
+      ->add_option("--csv", options->csv,
+                   "also a row per thread: its cost, its uncertainty, and whether it was measured")
       ->type_name("FILE");
   command
       ->add_option("--share", options->share, "isolate: measure this share of the pixels, on a regular grid")

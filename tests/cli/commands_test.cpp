@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "launch.h"
 
 namespace shadestep::test {
@@ -17,8 +19,8 @@ const Json* checkNamed(const Json& document, const std::string& name) {
 
 TEST(Profile, writes_its_files_and_the_document_it_prints) {
   const Scratch scratch;
-  const Finished run =
-      scratch.shadestep({"profile", "--method", "count", "--json", "--out", "result"}, kRaycaster);
+  const Finished run = scratch.shadestep(
+      {"profile", "--method", "count", "--json", "--csv", "cost.csv", "--out", "result"}, kRaycaster);
   ASSERT_EQ(run.status, 0) << run.err;
   const Json document = run.json();
   EXPECT_EQ(document["method"], "count");
@@ -30,6 +32,9 @@ TEST(Profile, writes_its_files_and_the_document_it_prints) {
   EXPECT_EQ(readFile(scratch.file("result/heat.exr")).substr(0, 4), "\x76\x2f\x31\x01");
   EXPECT_EQ(readFile(scratch.file("result/height.png")).substr(1, 3), "PNG");
   EXPECT_EQ(Json::parse(readFile(scratch.file("result/profile.json"))), document);
+  const std::string rows = readFile(scratch.file("result/cost.csv"));
+  EXPECT_THAT(rows, testing::StartsWith("x,y,statements,uncertainty,measured\n"));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), document["covered"].get<int>() + 1);
   // The report asks nothing of anywhere else.
   const std::string report = readFile(scratch.file("result/report.html"));
   EXPECT_THAT(report, testing::HasSubstr("\"method\":\"count\""));
