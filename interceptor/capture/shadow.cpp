@@ -32,6 +32,19 @@ void storeAsWindow(const guard::ContextFacts& facts) {
   }
 }
 
+// All of the target's pixels. Drivers count the bytes of one call in 32 bits, perhaps with a sign, and crash
+// beyond: rows in parts.
+void readPixels(const DrawTarget& target, GLenum format, GLenum type, std::size_t pixel_bytes, void* pixels) {
+  constexpr std::size_t kMost = std::size_t{256} << 20;
+  const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(target.width);
+  const int rows = static_cast<int>(std::max<std::size_t>(kMost / std::max<std::size_t>(row_bytes, 1), 1));
+  auto* destination = static_cast<std::byte*>(pixels);
+  for (int y = 0; y < target.height; y += rows) {
+    gl().ReadPixels(0, y, target.width, std::min(rows, target.height - y), format, type,
+                    destination + row_bytes * static_cast<std::size_t>(y));
+  }
+}
+
 }  // namespace
 
 Shadow::Shadow(const guard::ContextFacts& facts, const DrawTarget& target)
@@ -52,8 +65,10 @@ guard::Refusal Shadow::fill(const guard::FramebufferGuard& clip, const std::vect
   attachCaptures(captures);
   selectDrawBuffers(captures);
   if (gl().CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    return guard::limit("the driver takes no framebuffer with the program's buffers and " +
-                        std::to_string(captures.size()) + " capture buffers; capture less at once");
+    return guard::limit(
+        "the driver takes no framebuffer with the program's buffers and " + std::to_string(captures.size()) +
+        " more of " + std::to_string(target_.width) + " x " + std::to_string(target_.height) +
+        " pixels and 16 bytes a pixel; capture less at once, or have the program draw to a smaller target");
   }
   if (start == Start::cleared) clearBuffers();
   if (!captures.empty()) clearMarks(captures.front());
@@ -248,8 +263,7 @@ void Shadow::readCapture(const CaptureBuffer& capture, Plane plane, void* words)
                                      [&](const Attached& one) { return one.buffer == capture; });
   if (attached == captures_.end()) return;
   bindColor(capture.location, *attached->image, integer ? GL_UNSIGNED_INT : GL_FLOAT, plane);
-  gl().ReadPixels(0, 0, target_.width, target_.height, integer ? GL_RGBA_INTEGER : GL_RGBA,
-                  integer ? GL_UNSIGNED_INT : GL_FLOAT, words);
+  readPixels(target_, integer ? GL_RGBA_INTEGER : GL_RGBA, integer ? GL_UNSIGNED_INT : GL_FLOAT, 16, words);
 }
 
 void Shadow::readOutput(const ColorBuffer& color, Plane plane, void* words) {
@@ -257,15 +271,15 @@ void Shadow::readOutput(const ColorBuffer& color, Plane plane, void* words) {
   const auto index = static_cast<std::size_t>(&color - target_.colors.data());
   bindColor(color.draw_buffer, colors_[index], format.type, plane);
   if (format.integer()) {
-    gl().ReadPixels(0, 0, target_.width, target_.height, GL_RGBA_INTEGER, format.type, words);
+    readPixels(target_, GL_RGBA_INTEGER, format.type, 16, words);
     return;
   }
   if (!facts_.es || format.type == GL_FLOAT || target_.samples > 0) {
-    gl().ReadPixels(0, 0, target_.width, target_.height, GL_RGBA, GL_FLOAT, words);
+    readPixels(target_, GL_RGBA, GL_FLOAT, 16, words);
     return;
   }
   // OpenGL ES reads normalized formats as bytes only: widened in place, from the end.
-  gl().ReadPixels(0, 0, target_.width, target_.height, GL_RGBA, GL_UNSIGNED_BYTE, words);
+  readPixels(target_, GL_RGBA, GL_UNSIGNED_BYTE, 4, words);
   const auto* bytes = static_cast<const std::uint8_t*>(words);
   auto* floats = static_cast<float*>(words);
   for (std::size_t i = pixels() * 4; i-- > 0;) floats[i] = static_cast<float>(bytes[i]) / 255.0F;
@@ -282,14 +296,13 @@ void Shadow::bindDepthStencil(PlaneReader::Part part, Plane plane) {
 void Shadow::readDepth(Plane plane, void* words) {
   bindDepthStencil(PlaneReader::Part::depth, plane);
   const bool fetched = target_.samples > 0;  // a sample's depth is a colour by now
-  gl().ReadPixels(0, 0, target_.width, target_.height, fetched ? GL_RED : GL_DEPTH_COMPONENT,
-                  fetched || target_.depth_stencil.depth_float ? GL_FLOAT : GL_UNSIGNED_INT, words);
+  readPixels(target_, fetched ? GL_RED : GL_DEPTH_COMPONENT,
+             fetched || target_.depth_stencil.depth_float ? GL_FLOAT : GL_UNSIGNED_INT, 4, words);
 }
 
 void Shadow::readStencil(Plane plane, void* bytes) {
   bindDepthStencil(PlaneReader::Part::stencil, plane);
-  gl().ReadPixels(0, 0, target_.width, target_.height,
-                  target_.samples > 0 ? GL_RED_INTEGER : GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, bytes);
+  readPixels(target_, target_.samples > 0 ? GL_RED_INTEGER : GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, bytes);
 }
 
 bool Shadow::readsDepth() const {

@@ -252,5 +252,33 @@ TEST(EarlyTests, DecideBeforeTheShader) {
   EXPECT_EQ(look({"--plan", "window"}), visible);
 }
 
+// Read back in parts: 288 MB.
+TEST(Fragments, OfALargeTargetAreAllRead) {
+  const Scratch scratch;
+  const Finished run =
+      scratch.shadestep({"debug", "--at", "8", "--print", "number", "--pixel", "16383,1099", "--json"},
+                        {binary("programs/large-target"), "16384", "1100"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["check"]["outputs"], "identical");
+  const Json number = run.json()["values"]["number"];
+  EXPECT_EQ(number["at_pixel"], 16384 * 1100 - 1);
+  EXPECT_EQ(number["min"], 0);
+  EXPECT_EQ(number["max"], 16384 * 1100 - 1);
+  EXPECT_DOUBLE_EQ(number["mean"].get<double>(), (16384.0 * 1100 - 1) / 2);
+}
+
+TEST(Fragments, OfTheLastOfManyDraws) {
+  const Scratch scratch;
+  const Finished last = scratch.shadestep({"debug", "--draw", "9999", "--at", "5", "--json"},
+                                          {binary("bench-many-draws"), "10000"});
+  ASSERT_EQ(last.status, 0) << last.err;
+  EXPECT_EQ(last.json()["check"]["outputs"], "identical");
+  const Finished beyond =
+      scratch.shadestep({"debug", "--draw", "10000", "--at", "5"}, {binary("bench-many-draws"), "10000"});
+  EXPECT_EQ(beyond.status, 3);
+  EXPECT_NE(beyond.err.find("no draw 10000 in frame 0, which has 10000 draws"), std::string::npos)
+      << beyond.err;
+}
+
 }  // namespace
 }  // namespace shadestep::test
