@@ -107,6 +107,11 @@ INSTANTIATE_TEST_SUITE_P(
              kRaycaster,
              2,
              "cannot make the directory '/proc/nowhere'"},
+        Case{"LoadedAsABinary",
+             {"debug", "--pixel", "1,1"},
+             {binary("programs/program-binary")},
+             4,
+             "the program was loaded as a binary: there is no source"},
         Case{"EndsEarly", {"debug", "--pixel", "1,1"}, {binary("programs/no-draw")}, 3, "no draw"}),
     [](const auto& given) { return given.param.name; });
 
