@@ -130,14 +130,13 @@ struct Candidate {
 bool holdsAt(Debuggee& debuggee, const Candidate& candidate, const Picked& picked) {
   if (candidate.condition.empty()) return true;
   const LookPtr look = debuggee.look({candidate.condition});
-  if (look->threads.values.empty())
-    throw Error(Outcome::nothing_matches,
-                "the breakpoint's condition has no value: " + look->refused.front().second);
+  if (look->values.empty())
+    throw Error(Outcome::nothing_matches, "the breakpoint's condition has no value: " +
+                                              (look->refused.empty() ? "what it reads is not written yet"
+                                                                     : look->refused.front().second));
   const session::ThreadValues& threads = look->threads;
   const auto index = picked.in(threads);
-  const session::WatchedValues& value = threads.values.front();
-  if (!value.no_value.empty())
-    throw Error(Outcome::nothing_matches, "the breakpoint's condition has no value: " + value.no_value);
+  const session::WatchedValues& value = look->values.front().watched;
   if (!value.type.isScalar())
     throw Error(Outcome::nothing_matches, "the breakpoint's condition is a " +
                                               frontend::glslName(value.type) +

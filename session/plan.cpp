@@ -20,6 +20,7 @@ class SinglePlan : public CapturePlan {
 class AutomaticPlan : public CapturePlan {
  public:
   explicit AutomaticPlan(Session& session) : CapturePlan(session), window_(session), single_(session) {}
+  void expect(const std::vector<std::string>& names) override { window_.expect(names); }
 
  private:
   ThreadValues look(const instrumenter::Probe& probe) override {

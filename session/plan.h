@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "session/thread_values.h"
 
@@ -29,6 +30,8 @@ class CapturePlan {
   // "". Throws cannot_debug, with the reason, where this plan cannot get at them.
   // Uniforms that the driver dropped have no value.
   ThreadValues valuesAt(const instrumenter::Probe&);
+  // Names that will be asked for at other places, where they are in scope.
+  virtual void expect(const std::vector<std::string>&) {}
 
  protected:
   Session& session_;

@@ -14,6 +14,14 @@ const WatchedValues* valueOf(const ThreadValues& threads, const std::string& nam
   return found == threads.values.end() ? nullptr : &*found;
 }
 
+// Nothing changes it from the start of main on.
+bool isFixed(const frontend::Shader& shader, const frontend::Watch& watch) {
+  using frontend::Storage;
+  if (watch.variable == frontend::kNone) return false;
+  const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(watch.variable)];
+  return !variable.written && (variable.storage == Storage::uniform || variable.storage == Storage::in);
+}
+
 bool isLoop(frontend::StatementKind kind) {
   return kind == frontend::StatementKind::for_ || kind == frontend::StatementKind::while_ ||
          kind == frontend::StatementKind::do_while;
@@ -27,6 +35,7 @@ Stepper::Stepper(Session& session, std::optional<ThreadName> thread, Plan plan)
       shader_(session.shader()),
       navigation_(shader_),
       thread_(std::move(thread)),
+      keeps_fixed_(plan == Plan::automatic && stage_ == Stage::fragment),
       plan_(makePlan(session, plan)) {
   position_ = navigation_.start();
 }
@@ -47,24 +56,62 @@ std::optional<std::size_t> Stepper::pickedIn(const ThreadValues& threads) const 
 }
 
 ThreadValues Stepper::look(const std::vector<std::string>& watches) {
-  ThreadValues values = here(watches);
-  std::vector<WatchedValues> wanted;
-  for (const std::string& name : watches) wanted.push_back(*valueOf(values, name));
-  values.values = std::move(wanted);
+  const auto all = lookShared(watches);
+  ThreadValues values{all->width,    all->height, all->launched,  all->reached, all->discarded, all->marks,
+                      all->identity, {},          all->statement, all->check};
+  for (const std::string& name : watches) values.values.push_back(*valueOf(*all, name));
   return values;
 }
 
-// The values of these names, at a condition its outcome first; perhaps more.
-const ThreadValues& Stepper::here(const std::vector<std::string>& watches) {
+// At a condition its outcome stands first.
+std::shared_ptr<const ThreadValues> Stepper::lookShared(const std::vector<std::string>& watches) {
   if (ended()) throw Error(Outcome::nothing_matches, "the threads have ended; start again");
-  instrumenter::Probe probe = probeAt(shader_, position_);
-  probe.watches = watchesAt(shader_, probe, watches);
   const auto known = [&](const std::string& name) { return valueOf(*here_, name) != nullptr; };
-  if (here_ && std::all_of(watches.begin(), watches.end(), known)) return *here_;
+  if (here_ && std::all_of(watches.begin(), watches.end(), known)) return here_;
 
+  instrumenter::Probe probe = probeAt(shader_, position_);
+  const std::vector<frontend::Watch> wanted = watchesAt(shader_, probe, watches);
+  std::vector<frontend::Watch> fixed;
+  for (const frontend::Watch& watch : wanted)
+    (keeps_fixed_ && isFixed(shader_, watch) ? fixed : probe.watches).push_back(watch);
   session_.select(stage_);
-  here_ = plan_->valuesAt(probe);
-  return *here_;
+  ThreadValues values = plan_->valuesAt(probe);
+  if (!fixed.empty() && !addFixed(fixed, values)) {
+    probe.watches = wanted;
+    values = plan_->valuesAt(probe);
+  }
+  here_ = std::make_shared<const ThreadValues>(std::move(values));
+  return here_;
+}
+
+// Looks at what is new of them at the start of main, where all threads are; false where that does not tell it
+// of the threads that are here.
+bool Stepper::addFixed(const std::vector<frontend::Watch>& watches, ThreadValues& values) {
+  instrumenter::Probe start;
+  start.statement = shader_.functions[static_cast<std::size_t>(shader_.main)].body;
+  for (const frontend::Watch& watch : watches) {
+    if (fixed_ && valueOf(*fixed_, watch.expression) != nullptr) continue;
+    const frontend::WatchResult there = watchAt(shader_, start, watch.expression);
+    if (!there.watch || there.watch->variable != watch.variable) return false;
+    start.watches.push_back(watch);
+  }
+  if (!start.watches.empty()) {
+    ThreadValues found = makePlan(session_, Plan::single)->valuesAt(start);
+    if (fixed_) join(found, std::move(*fixed_));
+    fixed_ = std::move(found);
+  }
+  if (fixed_->marks.size() != values.marks.size()) return false;
+  for (std::size_t p = 0; p < values.marks.size(); ++p)
+    if (values.reachedAt(p) && !fixed_->reachedAt(p)) return false;
+  for (const frontend::Watch& watch : watches) {
+    WatchedValues value = *valueOf(*fixed_, watch.expression);
+    for (std::size_t p = 0; p < values.marks.size(); ++p)
+      if (!values.reachedAt(p))
+        std::fill_n(value.words.begin() + static_cast<std::ptrdiff_t>(p * value.stride), value.stride, 0U);
+    values.values.push_back(std::move(value));
+  }
+  values.check.merge(fixed_->check);
+  return true;
 }
 
 std::vector<frontend::VariableId> Stepper::scope() const {
@@ -112,7 +159,8 @@ const std::vector<TakenSide>& Stepper::sides() {
   const std::vector<Side> sides = navigation_.sides(position_);
   if (sides.empty()) return sides_.emplace();
 
-  const ThreadValues& threads = here({});
+  const auto all = lookShared({});
+  const ThreadValues& threads = *all;
   const WatchedValues& outcome = threads.values.front();
   std::vector<TakenSide> ways;
   for (const Side& side : sides)

@@ -51,6 +51,10 @@ class Stepper {
   // Values of variables in scope, of all threads that are at the position. One redraw (more for more watches
   // than one draw holds); none for what was looked at here before.
   ThreadValues look(const std::vector<std::string>& watches);
+  // The same and whatever else is known of the position, by their names in any order; shared, as it is much.
+  std::shared_ptr<const ThreadValues> lookShared(const std::vector<std::string>& watches);
+  // What will be asked for at places to come, where it is in scope: a window captures it from the start.
+  void expect(const std::vector<std::string>& names) { plan_->expect(names); }
   // What can be named at the position, innermost last, and what its statement may change in some thread.
   std::vector<frontend::VariableId> scope() const;
   std::vector<frontend::VariableId> mayChange() const;
@@ -64,7 +68,7 @@ class Stepper {
   void choose(const std::string& name = {});
 
  private:
-  const ThreadValues& here(const std::vector<std::string>& watches);
+  bool addFixed(const std::vector<frontend::Watch>&, ThreadValues&);
   const frontend::Statement& statementAt(frontend::StatementId id) const {
     return shader_.statements[static_cast<std::size_t>(id)];
   }
@@ -75,8 +79,10 @@ class Stepper {
   Navigation navigation_;
   Position position_;
   std::optional<ThreadName> thread_;
+  const bool keeps_fixed_;
   std::unique_ptr<CapturePlan> plan_;
-  std::optional<ThreadValues> here_;             // what is known of the current position
+  std::shared_ptr<const ThreadValues> here_;     // what is known of the current position
+  std::optional<ThreadValues> fixed_;            // of all threads: values that nothing changes
   std::optional<std::vector<TakenSide>> sides_;  // of the current position, once asked for
 };
 

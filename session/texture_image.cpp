@@ -57,8 +57,8 @@ std::uint32_t targetOf(const SamplerKind& kind) {
 // At pixel p of the target, as `texel`: a vec4, ivec4 or uvec4.
 std::string fetch(const Sampler& sampler) {
   const SamplerKind& kind = sampler.kind;
-  if (kind.cube) cannot("it is a cube map");
-  if (kind.buffer) cannot("it is a buffer");
+  if (kind.cube) return "cubeTexel(p)";
+  if (kind.buffer) return "texelFetch(" + sampler.uniform + ", p.x)";
   if (kind.multisample) cannot("it is multisampled");
   if (kind.shadow) cannot("its sampler compares");
   if (kind.rectangle) return "texelFetch(" + sampler.uniform + ", p)";
@@ -68,9 +68,44 @@ std::string fetch(const Sampler& sampler) {
   return "texelFetch(" + sampler.uniform + ", " + coordinate + ", sd_place.x)";
 }
 
-std::string versionLine(Session& session) {
+// texelFetch reads no cube maps; gathering does without filtering too, at the base level. The direction leads
+// a quarter beside the texel's centre, inwards, so that rounding changes nothing of which four texels are
+// gathered.
+std::string cubeFetch(const Sampler& sampler) {
+  std::string text = std::string(sampler.type[0] == 'i'   ? "i"
+                                 : sampler.type[0] == 'u' ? "u"
+                                                          : "") +
+                     "vec4 cubeTexel(ivec2 p) {\n"
+                     "  int size = textureSize(" +
+                     sampler.uniform +
+                     ", 0).x;\n"
+                     "  bvec2 last = bvec2(size > 1 && p.x == size - 1, size > 1 && p.y == size - 1);\n"
+                     "  vec2 at = vec2(p) + 0.5 + vec2(last.x ? -0.25 : 0.25, last.y ? -0.25 : 0.25);\n"
+                     "  vec2 c = 2.0 * at / float(size) - 1.0;\n"
+                     "  int face = sd_place.y % 6;\n"
+                     "  vec3 d = face == 0   ? vec3(1.0, -c.y, -c.x)\n"
+                     "           : face == 1 ? vec3(-1.0, -c.y, c.x)\n"
+                     "           : face == 2 ? vec3(c.x, 1.0, c.y)\n"
+                     "           : face == 3 ? vec3(c.x, -1.0, -c.y)\n"
+                     "           : face == 4 ? vec3(c.x, -c.y, 1.0)\n"
+                     "                       : vec3(-c.x, -c.y, -1.0);\n"
+                     "  int which = last.x ? (last.y ? 1 : 2) : (last.y ? 0 : 3);\n";
+  const std::string direction = sampler.kind.array ? "vec4(d, float(sd_place.y / 6))" : "d";
+  std::string texel = std::string(sampler.type[0] == 'i' ? "i" : sampler.type[0] == 'u' ? "u" : "") + "vec4(";
+  for (int component = 0; component < 4; ++component)
+    texel += "textureGather(" + sampler.uniform + ", " + direction + ", " + std::to_string(component) +
+             ")[which]" + (component < 3 ? ", " : ")");
+  return text + "  return " + texel + ";\n}\n";
+}
+
+std::string versionLine(Session& session, bool gathers) {
   const DrawFacts& facts = session.facts();
   const frontend::Shader& shader = session.shader();
+  if (gathers) {
+    const bool can = facts.es ? facts.major * 10 + facts.minor >= 31 : facts.major >= 4;
+    if (!can) cannot("texels of a cube map need OpenGL 4.0 or OpenGL ES 3.1");
+    if (shader.version < (facts.es ? 310 : 400)) return facts.es ? "#version 310 es\n" : "#version 400\n";
+  }
   if (shader.profile == "es" || facts.es) {
     if (shader.version < 300) cannot("GLSL ES " + std::to_string(shader.version) + " has no texelFetch");
     return "#version " + std::to_string(shader.version) + " es\n";
@@ -81,27 +116,43 @@ std::string versionLine(Session& session) {
          "\n";
 }
 
-// Whole numbers go through floats half by half: every one of them is exact.
+bool isWhole(const Sampler& sampler) {
+  return sampler.type[0] == 'i' || sampler.type[0] == 'u';
+}
+
+// Can a shader of ours take the bits of a float?
+bool takesBits(const std::string& version_line) {
+  const int version = std::stoi(version_line.substr(version_line.find(' ') + 1));
+  return version >= (version_line.find(" es") == std::string::npos ? 330 : 300);
+}
+
+// The target is of floats. Whole numbers go through it half by half: every one of them is exact. So do the
+// bits of floats, in another order than the floats themselves (sd_place.w = 2), which prove each other.
 std::string fragmentText(Session& session, const Sampler& sampler) {
-  const bool whole = sampler.type[0] == 'i' || sampler.type[0] == 'u';
+  const bool whole = isWhole(sampler);
   const std::string texel = fetch(sampler);
-  std::string text = versionLine(session);
+  std::string text = versionLine(session, sampler.kind.cube);
+  const bool bits = takesBits(text);
   if (text.find(" es") != std::string::npos)
     text += "precision highp float;\nprecision highp int;\nprecision highp " + sampler.type + ";\n";
   else if (session.shader().version < 140 && (sampler.kind.rectangle))
     text += "#extension GL_ARB_texture_rectangle : enable\n";
-  text += "uniform " + sampler.declared + ";\nuniform ivec4 sd_place;\nout vec4 sd_texel;\nvoid main() {\n" +
+  text += "uniform " + sampler.declared + ";\nuniform ivec4 sd_place;\nout vec4 sd_texel;\n" +
+          (sampler.kind.cube ? cubeFetch(sampler) : "") + "void main() {\n" +
           "  ivec2 p = ivec2(gl_FragCoord.xy) * sd_place.z;\n";
+  const std::string halves = "vec4(sd_place.w == 0 ? whole & 0xffffu : whole >> 16u)";
   if (whole)
-    text += "  uvec4 whole = uvec4(" + texel + ");\n" +
-            "  sd_texel = vec4(sd_place.w == 0 ? whole & 0xffffu : whole >> 16u);\n}\n";
+    text += "  uvec4 whole = uvec4(" + texel + ");\n  sd_texel = " + halves + ";\n}\n";
+  else if (bits)
+    text += "  vec4 texel = " + texel + ";\n  uvec4 whole = floatBitsToUint(texel);\n" +
+            "  sd_texel = sd_place.w == 2 ? texel : " + halves + ";\n}\n";
   else
     text += "  sd_texel = " + texel + ";\n}\n";
   return text;
 }
 
-std::string vertexText(Session& session) {
-  return versionLine(session) +
+std::string vertexText(Session& session, bool gathers) {
+  return versionLine(session, gathers) +
          "void main() {\n"
          "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
          "}\n";
@@ -125,6 +176,31 @@ std::vector<SampledTexture> factsOf(Session& session, const std::vector<Sampler>
   std::vector<SamplerName> names;
   for (const Sampler& sampler : samplers) names.push_back({sampler.uniform, targetOf(sampler.kind)});
   return names.empty() ? std::vector<SampledTexture>() : session.textures(names);
+}
+
+// What the program draws over the image, four words a texel.
+std::vector<std::uint32_t> drawn(Session& session, const Prepared& program, const TextureImage& image,
+                                 const std::vector<std::uint32_t>& place) {
+  ExecuteOptions options;
+  options.compare = false;
+  options.read_outputs = true;
+  options.read_captures = false;
+  options.covering_size = std::max(image.width, image.height);
+  options.uniforms = {{"sd_place", 0x8B55, place}};  // GL_INT_VEC4
+  const Execution execution = session.execute(program, options);
+  if (execution.outputs.empty()) cannot("the driver gives no texels back");
+  const std::vector<std::uint32_t>& all = execution.outputs.front().words;
+  const auto side = static_cast<std::size_t>(options.covering_size) * 4;
+  const auto row = static_cast<std::size_t>(image.width) * 4;
+  if (all.size() < side * static_cast<std::size_t>(options.covering_size))
+    cannot("the driver gives too few texels back");
+  std::vector<std::uint32_t> words;
+  words.reserve(row * static_cast<std::size_t>(image.height));
+  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(y * side);
+    words.insert(words.end(), first, first + static_cast<std::ptrdiff_t>(row));
+  }
+  return words;
 }
 
 }  // namespace
@@ -152,6 +228,7 @@ TextureImage textureImage(Session& session, const std::string& uniform, int leve
     throw Error(Outcome::nothing_matches, "'" + uniform + "' has the levels " +
                                               std::to_string(facts.base_level) + " to " +
                                               std::to_string(last));
+  if (sampler.kind.cube && level != facts.base_level) cannot("of a cube map only its base level can be read");
   const SampledTexture::Size& size = facts.levels[static_cast<std::size_t>(level - facts.base_level)];
   if (slice < 0 || slice >= std::max(size.depth, 1))
     throw Error(Outcome::nothing_matches, "'" + uniform + "' has " + std::to_string(size.depth) +
@@ -169,34 +246,32 @@ TextureImage textureImage(Session& session, const std::string& uniform, int leve
   image.type.basic = sampler.type[0] == 'i'   ? frontend::Basic::int_
                      : sampler.type[0] == 'u' ? frontend::Basic::uint_
                                               : frontend::Basic::float_;
-  const bool whole = image.type.basic != frontend::Basic::float_;
-  image.words.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4, 0);
-  const Prepared program = session.prepareCovering(fragmentText(session, sampler), vertexText(session));
-  for (int half = 0; half < (whole ? 2 : 1); ++half) {
-    ExecuteOptions options;
-    options.compare = false;
-    options.read_outputs = true;
-    options.read_captures = false;
-    options.covering_size = std::max(image.width, image.height);
-    options.uniforms = {
-        {"sd_place",
-         0x8B55,  // GL_INT_VEC4
-         {static_cast<std::uint32_t>(level - facts.base_level), static_cast<std::uint32_t>(slice),
-          static_cast<std::uint32_t>(image.stride), static_cast<std::uint32_t>(half)}}};
-    const Execution execution = session.execute(program, options);
-    if (execution.outputs.empty()) cannot("the driver gives no texels back");
-    const std::vector<std::uint32_t>& drawn = execution.outputs.front().words;
-    const auto side = static_cast<std::size_t>(options.covering_size);
-    if (drawn.size() < side * side * 4) cannot("the driver gives too few texels back");
-    for (int y = 0; y < image.height; ++y) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(image.width) * 4; ++i) {
-        const std::uint32_t word = drawn[static_cast<std::size_t>(y) * side * 4 + i];
-        std::uint32_t& to =
-            image.words[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) * 4 + i];
-        to = whole ? to | (static_cast<std::uint32_t>(std::bit_cast<float>(word)) << (16 * half)) : word;
-      }
-    }
+  const std::string text = fragmentText(session, sampler);
+  const Prepared program = session.prepareCovering(text, vertexText(session, sampler.kind.cube));
+  const auto read = [&](int how) {
+    return drawn(session, program, image,
+                 {static_cast<std::uint32_t>(level - facts.base_level), static_cast<std::uint32_t>(slice),
+                  static_cast<std::uint32_t>(image.stride), static_cast<std::uint32_t>(how)});
+  };
+  const auto readHalves = [&] {
+    std::vector<std::uint32_t> words = read(0);
+    const std::vector<std::uint32_t> high = read(1);
+    for (std::size_t i = 0; i < words.size(); ++i)
+      words[i] = static_cast<std::uint32_t>(std::bit_cast<float>(words[i])) |
+                 static_cast<std::uint32_t>(std::bit_cast<float>(high[i])) << 16;
+    return words;
+  };
+  if (!isWhole(sampler) && !takesBits(text)) {
+    image.words = read(0);
+    image.check.reason =
+        "GLSL " + std::to_string(session.shader().version) + " cannot take the bits of floats";
+    return image;
   }
+  image.words = readHalves();
+  const std::vector<std::uint32_t> again = isWhole(sampler) ? readHalves() : read(2);
+  image.check.compared_at_all = true;
+  image.check.compared = again.size();
+  for (std::size_t i = 0; i < again.size(); ++i) image.check.differing += again[i] != image.words[i];
   return image;
 }
 

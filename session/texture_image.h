@@ -26,9 +26,12 @@ struct TextureImage {
   int width = 0, height = 0;         // of the image, in texels that are there
   frontend::Type type;               // of a texel: vec4, ivec4 or uvec4
   std::vector<std::uint32_t> words;  // width*height*4, the row of t = 0 first
+  Check check;                       // the texels read in two ways (twice, if they are whole numbers)
 };
-// Throws cannot_debug for cube maps, buffers, multisampled and comparing samplers, and where texelFetch or a
-// target of floats is missing; nothing_matches where there is no such texture, level or slice.
+// Slices of a cube map are its faces, +x, -x, +y, -y, +z, -z, of an array of them six of each; of a buffer
+// there is one row. Throws cannot_debug for multisampled and comparing samplers, levels of cube maps but the
+// base level, and where texelFetch or a target of floats is missing; nothing_matches where there is no such
+// texture, level or slice.
 TextureImage textureImage(Session&, const std::string& uniform, int level, int slice);
 
 }  // namespace shadestep::session

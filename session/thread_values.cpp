@@ -1,6 +1,7 @@
 #include "session/thread_values.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -206,6 +207,13 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
   std::move(fields.values.begin(), fields.values.end(), std::back_inserter(result.values));
 }
 
+void join(ThreadValues& all, ThreadValues&& part) {
+  if (part.marks != all.marks) disagree();
+  requireSameThreads(all.identity, part.identity);
+  all.check.merge(part.check);
+  std::move(part.values.begin(), part.values.end(), std::back_inserter(all.values));
+}
+
 ThreadValues onePass(Session& session, const instrumenter::AttachmentShader& shader) {
   const Captured captured = session.capture(shader);
   ThreadValues threads;
@@ -249,6 +257,31 @@ ThreadValues valuesAt(Session& session, Probe probe) {
   return result;
 }
 
+namespace {
+
+// `number` gives the component as a double. One kind of component at a time: there are many threads.
+template <class Number>
+void count(const ThreadValues& threads, const WatchedValues& values, std::size_t word, Number number,
+           ComponentStatistics& one) {
+  double sum = 0;
+  const std::uint32_t* at = values.words.data() + word;
+  for (std::size_t p = 0; p < threads.marks.size(); ++p, at += values.stride) {
+    if (!threads.reachedAt(p)) continue;
+    const double value = number(at);
+    if (!std::isfinite(value)) {
+      ++(std::isnan(value) ? one.nan : one.inf);
+      continue;
+    }
+    one.min = one.finite == 0 ? value : std::min(one.min, value);
+    one.max = one.finite == 0 ? value : std::max(one.max, value);
+    sum += value;
+    ++one.finite;
+  }
+  if (one.finite > 0) one.mean = sum / static_cast<double>(one.finite);
+}
+
+}  // namespace
+
 std::vector<ComponentStatistics> statistics(const ThreadValues& threads, const WatchedValues& values) {
   std::vector<ComponentStatistics> result;
   if (!values.no_value.empty()) return result;
@@ -256,22 +289,15 @@ std::vector<ComponentStatistics> statistics(const ThreadValues& threads, const W
   for (const frontend::Component& component : frontend::components(values.type)) {
     ComponentStatistics one;
     one.access = component.access;
-    double sum = 0;
-    for (std::size_t p = 0; p < threads.marks.size(); ++p) {
-      if (!threads.reachedAt(p)) continue;
-      const double value = componentAsDouble(component.basic, values.at(p) + word);
-      if (std::isnan(value)) {
-        ++one.nan;
-      } else if (std::isinf(value)) {
-        ++one.inf;
-      } else {
-        one.min = one.finite == 0 ? value : std::min(one.min, value);
-        one.max = one.finite == 0 ? value : std::max(one.max, value);
-        sum += value;
-        ++one.finite;
-      }
+    if (component.basic == frontend::Basic::float_) {
+      count(
+          threads, values, word,
+          [](const std::uint32_t* at) { return static_cast<double>(std::bit_cast<float>(*at)); }, one);
+    } else {
+      count(
+          threads, values, word,
+          [basic = component.basic](const std::uint32_t* at) { return componentAsDouble(basic, at); }, one);
     }
-    if (one.finite > 0) one.mean = sum / static_cast<double>(one.finite);
     result.push_back(std::move(one));
     word += static_cast<std::size_t>(wordsPerComponent(component.basic));
   }

@@ -74,6 +74,9 @@ frontend::StatementId scopeAt(const frontend::Shader&, const instrumenter::Probe
 // check.
 void addPass(ThreadValues&, const ThreadWords&, const instrumenter::AttachmentLayout&, const Check&);
 
+// Takes in what another look at the same place shows of the same threads. Throws failed if they are others.
+void join(ThreadValues&, ThreadValues&& part);
+
 // What one pass shows, its threads named.
 ThreadValues onePass(Session&, const instrumenter::AttachmentShader&);
 

@@ -34,6 +34,10 @@ instrumenter::WindowShader instrumented(Session& session, const std::vector<Prob
 
 }  // namespace
 
+bool probeServes(const Probe& probe, const Probe& wanted) {
+  return samePlace(probe, wanted) && captures(probe, wanted);
+}
+
 Window::Window(Session& session, std::vector<Probe> probes) : session_(session), probes_(std::move(probes)) {
   instrumenter::WindowShader shader = instrumented(session, probes_);
   layout_ = std::move(shader.layout);
@@ -41,14 +45,9 @@ Window::Window(Session& session, std::vector<Probe> probes) : session_(session),
 }
 
 std::size_t Window::find(const Probe& wanted) const {
-  const auto found = std::find_if(probes_.begin(), probes_.end(), [&](const Probe& probe) {
-    return samePlace(probe, wanted) && captures(probe, wanted);
-  });
+  const auto found = std::find_if(probes_.begin(), probes_.end(),
+                                  [&](const Probe& probe) { return probeServes(probe, wanted); });
   return static_cast<std::size_t>(found - probes_.begin());
-}
-
-bool Window::serves(const Probe& wanted) const {
-  return find(wanted) < probes_.size();
 }
 
 ThreadValues Window::valuesAt(const Probe& wanted) {

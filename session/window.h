@@ -13,10 +13,7 @@ class Window {
   // Serves the draw that the session stands at, and no longer. Throws cannot_debug if the text does not fit.
   Window(Session&, std::vector<instrumenter::Probe>);
 
-  // Is there a probe at this place that captures all that this one does? Its iterations' values do not
-  // matter.
-  bool serves(const instrumenter::Probe&) const;
-  // All values of that probe, one draw. Assumes that it `serves` it.
+  // All values of its probe that serves this one, one draw. Assumes that there is one.
   ThreadValues valuesAt(const instrumenter::Probe&);
 
   std::chrono::nanoseconds compileTime() const { return prepared_.compile_time; }
@@ -31,6 +28,10 @@ class Window {
   Prepared prepared_;
   std::chrono::nanoseconds draw_time_{0};
 };
+
+// Is a probe at the place of the wanted one, and captures all that this does? Its iterations' values do not
+// matter.
+bool probeServes(const instrumenter::Probe&, const instrumenter::Probe& wanted);
 
 // What is captured at a position: before its statement, or after its condition with the outcome.
 instrumenter::Probe probeAt(const frontend::Shader&, const Position&);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/values.h"
+
 namespace shadestep::session {
 namespace {
 
@@ -45,42 +47,128 @@ std::size_t windowSize(const WindowCosts& costs, nanoseconds bare) {
   return std::clamp(static_cast<std::size_t>(std::lround(std::min(best, 1e6))), kFewest, kMost);
 }
 
+std::size_t CaptureRoom::channelsOf(const frontend::Type& type) const {
+  if (!floats) return static_cast<std::size_t>(frontend::wordCount(type));
+  std::size_t count = 0;
+  for (const frontend::Component& component : frontend::components(type)) {
+    const auto words = static_cast<std::size_t>(wordsPerComponent(component.basic));
+    count += component.basic == frontend::Basic::float_ ? words : 2 * words;
+  }
+  return count;
+}
+
+CaptureRoom captureRoom(Session& session, const instrumenter::Probe& at) {
+  constexpr std::size_t kMoreThanThereIs = 1024;
+  instrumenter::Probe probe = at;
+  probe.outcome = false;
+  frontend::Type number;
+  number.basic = frontend::Basic::float_;
+  probe.watches.assign(kMoreThanThereIs, {"0.0", frontend::kNone, number});
+  const auto tried = instrumenter::instrumentSingle(session.shader(), probe, session.target());
+  if (const auto* failure = std::get_if<instrumenter::Failure>(&tried))
+    throw Error(Outcome::cannot_debug, failure->reason);
+  const auto& layout = std::get<instrumenter::AttachmentShader>(tried).layout;
+  return {layout.fields.size(), layout.carrier == instrumenter::Carrier::float_attachments ||
+                                    layout.carrier == instrumenter::Carrier::float_feedback};
+}
+
+std::vector<instrumenter::Probe> partsOf(const instrumenter::Probe& probe, const CaptureRoom& room) {
+  std::vector<instrumenter::Probe> parts = {probe};
+  parts.front().watches.clear();
+  std::size_t used = probe.outcome ? 2 : 0;  // at most
+  for (const frontend::Watch& watch : probe.watches) {
+    const std::size_t channels = room.channelsOf(watch.type);
+    if (used > 0 && used + channels > room.channels) {
+      parts.push_back(probe);
+      parts.back().watches.clear();
+      parts.back().outcome = false;
+      used = 0;
+    }
+    parts.back().watches.push_back(watch);
+    used += channels;
+  }
+  return parts;
+}
+
 ThreadValues WindowPlan::look(const instrumenter::Probe& probe) {
-  if (!window_ || !window_->serves(probe)) moveTo(probe);
+  if (find(probe) == probes_.size()) moveTo(probe);
   if (!probe.watches.empty()) names_ = namesOf(probe);
-  ThreadValues values = window_->valuesAt(probe);
-  draws_.push_back(window_->drawTime());
+  instrumenter::Probe place = probes_[find(probe)];
+  place.iterations = probe.iterations;
+  ThreadValues values;
+  bool any = false;
+  const std::vector<instrumenter::Probe> parts = partsOf(place, *room_);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto wanted = [&](const frontend::Watch& watch) {
+      return std::any_of(parts[i].watches.begin(), parts[i].watches.end(),
+                         [&](const frontend::Watch& one) { return one.expression == watch.expression; });
+    };
+    const bool first = i == 0 && (probe.outcome || probe.watches.empty());
+    if (!first && std::none_of(probe.watches.begin(), probe.watches.end(), wanted)) continue;
+    ThreadValues found = part(i).valuesAt(parts[i]);
+    if (i == 0) draws_.push_back(part(i).drawTime());
+    if (any)
+      join(values, std::move(found));
+    else
+      values = std::move(found);
+    any = true;
+  }
   return values;
+}
+
+std::size_t WindowPlan::find(const instrumenter::Probe& wanted) const {
+  const auto serves = [&](const instrumenter::Probe& probe) { return probeServes(probe, wanted); };
+  return static_cast<std::size_t>(std::find_if(probes_.begin(), probes_.end(), serves) - probes_.begin());
+}
+
+Window& WindowPlan::part(std::size_t number) {
+  if (parts_.size() <= number) parts_.resize(number + 1);
+  if (parts_[number]) return *parts_[number];
+  std::vector<instrumenter::Probe> probes;
+  for (const instrumenter::Probe& probe : probes_) {
+    std::vector<instrumenter::Probe> parts = partsOf(probe, *room_);
+    if (number < parts.size()) probes.push_back(std::move(parts[number]));
+  }
+  return parts_[number].emplace(session_, std::move(probes));
 }
 
 // Compiles a window around the probe's place, smaller ones if it does not fit.
 void WindowPlan::moveTo(const instrumenter::Probe& probe) {
   const std::size_t size = nextSize(probe);
   std::vector<std::string> names = namesOf(probe);
-  for (const std::string& name : names_)
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  window_.reset();
+  for (const auto* more : {&names_, &expected_})
+    for (const std::string& name : *more)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  if (!room_) room_ = captureRoom(session_, probe);
   draws_.clear();
   const frontend::Shader& shader = session_.shader();
   for (std::size_t most = size; most > 0; most /= 2) {
+    parts_.clear();
+    probes_ = probesAround(shader, probe, names, most);
+    // Threads of other stages lie in another order in each pass.
+    const bool in_parts =
+        session_.stage() != frontend::Stage::fragment && partsOf(probes_.front(), *room_).size() > 1;
     try {
-      const std::vector<instrumenter::Probe> probes = probesAround(shader, probe, names, most);
-      window_.emplace(session_, probes);
-      probes_ = probes.size();
+      if (in_parts)
+        throw Error(Outcome::cannot_debug, "so many values of this stage do not fit into one pass");
+      part(0);
       return;
     } catch (const Error& error) {
-      if (error.outcome() != Outcome::cannot_debug || most == 1) throw;
+      if (error.outcome() != Outcome::cannot_debug || most == 1) {
+        probes_.clear();
+        throw;
+      }
     }
   }
 }
 
 std::size_t WindowPlan::nextSize(const instrumenter::Probe& probe) {
-  if (!window_ || draws_.size() < 2) return firstSize(probe);
+  if (probes_.empty() || draws_.size() < 2) return firstSize(probe);
   if (!bare_) bare_ = bareDraw(session_);
   WindowCosts costs;
-  costs.probes = probes_;
+  costs.probes = probes_.size();
   costs.draw = *std::min_element(draws_.begin() + 1, draws_.end());
-  costs.compile = window_->compileTime() + std::max(draws_.front() - costs.draw, nanoseconds(0));
+  costs.compile = part(0).compileTime() + std::max(draws_.front() - costs.draw, nanoseconds(0));
   return windowSize(costs, *bare_);
 }
 

@@ -23,20 +23,39 @@ struct WindowCosts {
 // `bare`: the draw without probes.
 std::size_t windowSize(const WindowCosts&, std::chrono::nanoseconds bare);
 
+// How much a draw captures of a thread beside its mark.
+struct CaptureRoom {
+  std::size_t channels = 0;  // of 32 bits
+  bool floats = false;       // a whole number takes two of them
+  std::size_t channelsOf(const frontend::Type&) const;
+};
+CaptureRoom captureRoom(Session&, const instrumenter::Probe& at);
+
+// A probe's watches in parts that fit, in their order; the outcome, if it has one, is in the first. A value
+// that does not fit at all has a part of its own.
+std::vector<instrumenter::Probe> partsOf(const instrumenter::Probe&, const CaptureRoom&);
+
+// A place's values are captured in parts where they are more than a draw holds: a window a part, compiled
+// when one of its values is first asked for.
 class WindowPlan : public CapturePlan {
  public:
   using CapturePlan::CapturePlan;
+  void expect(const std::vector<std::string>& names) override { expected_ = names; }
 
  private:
   ThreadValues look(const instrumenter::Probe&) override;
   void moveTo(const instrumenter::Probe&);
   std::size_t nextSize(const instrumenter::Probe&);
+  std::size_t find(const instrumenter::Probe&) const;
+  Window& part(std::size_t);
 
-  std::optional<Window> window_;
-  std::vector<std::string> names_;  // watched last: the next window watches them too
-  std::size_t probes_ = 0;          // of the window
+  std::vector<instrumenter::Probe> probes_;  // of the windows, with all that is watched there
+  std::vector<std::optional<Window>> parts_;
+  std::vector<std::string> names_;     // watched last: the next windows watch them too
+  std::vector<std::string> expected_;  // and these
   std::vector<std::chrono::nanoseconds> draws_;
   std::optional<std::chrono::nanoseconds> bare_;
+  std::optional<CaptureRoom> room_;
 };
 
 }  // namespace shadestep::session

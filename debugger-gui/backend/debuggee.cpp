@@ -14,6 +14,22 @@ using session::Outcome;
 
 namespace {
 
+// What the window asks for wherever it is in scope, the outputs last: they are mostly not written yet.
+std::vector<std::string> namesToExpect(const frontend::Shader& shader) {
+  using frontend::Storage;
+  std::vector<std::string> names;
+  for (const bool outputs : {false, true})
+    for (const frontend::Variable& one : shader.variables) {
+      const bool is_output = one.storage == Storage::out || one.storage == Storage::builtin;
+      const bool changes = is_output ? one.written
+                                     : one.storage == Storage::local || one.storage == Storage::parameter ||
+                                           one.storage == Storage::global || one.storage == Storage::constant;
+      const int words = frontend::wordCount(one.type);
+      if (is_output == outputs && changes && words > 0 && words <= kLargeWords) names.push_back(one.name);
+    }
+  return names;
+}
+
 bool hasEnded(int process) {
   siginfo_t info{};
   if (process <= 0) return false;
@@ -228,7 +244,10 @@ session::Stepper& Debuggee::stepper() {
   session::Session& session = atDraw();
   session.select(picked_.stage);
   session.requireCapturable();
-  if (!stepper_) stepper_ = std::make_unique<session::Stepper>(session, pickedThread());
+  if (!stepper_) {
+    stepper_ = std::make_unique<session::Stepper>(session, pickedThread());
+    stepper_->expect(namesToExpect(session.shader()));
+  }
   return *stepper_;
 }
 
@@ -291,30 +310,6 @@ Place Debuggee::toLine(int line) {
 Place Debuggee::choose(const std::string& side) {
   stepper().choose(side);
   return place();
-}
-
-LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
-  session::Stepper& at = stepper();
-  auto look = std::make_shared<Look>();
-  if (at.ended()) return look;
-  const instrumenter::Probe probe = session::probeAt(at.shader(), at.position());
-  std::vector<std::string> wanted;
-  for (const std::string& expression : expressions) {
-    const frontend::WatchResult found = session::watchAt(at.shader(), probe, expression);
-    if (found.watch) {
-      wanted.push_back(expression);
-    } else {
-      look->refused.emplace_back(expression, found.error);
-    }
-  }
-  look->threads = at.look(wanted);
-  look->stage = picked_.stage;
-  for (const session::WatchedValues& value : look->threads.values)
-    if (!value.no_value.empty()) look->refused.emplace_back(value.name, value.no_value);
-  std::erase_if(look->threads.values, [](const auto& value) { return !value.no_value.empty(); });
-  for (const session::WatchedValues& value : look->threads.values)
-    look->statistics.push_back(session::statistics(look->threads, value));
-  return look;
 }
 
 RunPtr Debuggee::followPicked() {

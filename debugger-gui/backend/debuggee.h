@@ -14,6 +14,9 @@
 
 namespace shadestep::gui {
 
+// Larger values are looked at when somebody asks for them.
+inline constexpr int kLargeWords = 16;
+
 enum class Move { over, into, out, next_iteration, leave_loop };
 
 struct CostRequest {
@@ -83,6 +86,7 @@ class Debuggee {
   void noteCall();
   void keep(const session::LoggedCall&);
   DrawEntry entry();
+  TargetPtr drawnTarget(bool compare);
   QImage thumbnail();
   std::string whyNot(session::Stage);
   session::Stepper& stepper();

@@ -46,25 +46,30 @@ void Debuggee::chooseFragments(const session::FragmentChoice& choice) {
 }
 
 // Nothing where the draw leaves no picture that can be looked at.
-TargetPtr Debuggee::target() {
+TargetPtr Debuggee::drawnTarget(bool compare) {
   session::Session& session = atDraw();
   if (!whyNot(session::Stage::fragment).empty()) return nullptr;
   const OtherStage meanwhile(session, session::Stage::fragment);
   session::ExecuteOptions options;
-  options.compare = false;
+  options.compare = compare;
   options.read_outputs = true;
   options.read_captures = false;
   session::Execution execution = session.execute(session.prepareOriginal(), options);
   auto target = std::make_shared<TargetView>();
   target->width = session.facts().width;
   target->height = session.facts().height;
+  target->check = execution.check;
   target->outputs = std::move(execution.outputs);
   return target;
 }
 
+TargetPtr Debuggee::target() {
+  return drawnTarget(true);
+}
+
 QImage Debuggee::thumbnail() {
   try {
-    const TargetPtr drawn = target();
+    const TargetPtr drawn = drawnTarget(false);
     if (drawn && !drawn->outputs.empty())
       return thumbnailOf(drawn->outputs.front(), drawn->width, drawn->height);
   } catch (const Error& error) {

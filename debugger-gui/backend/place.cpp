@@ -9,8 +9,6 @@ namespace {
 
 using frontend::Shader;
 
-constexpr int kLargeWords = 16;  // larger values are looked at when somebody asks for them
-
 const frontend::Statement& statementAt(const Shader& shader, frontend::StatementId id) {
   return shader.statements[static_cast<std::size_t>(id)];
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,11 +105,28 @@ struct Place {
   bool at_loop = false;                                         // the branch is a loop's condition
 };
 
-struct Look {
+// Values at a place. They are much, and shared with the stepper, which may know more than was asked for.
+class Look {
+ public:
+  struct Value {
+    const session::WatchedValues& watched;
+    std::vector<session::ComponentStatistics> statistics;
+  };
+
+  explicit Look(std::shared_ptr<const session::ThreadValues> known)
+      : threads(*known), known_(std::move(known)) {}
+
   session::Stage stage = session::Stage::fragment;
-  session::ThreadValues threads;
-  std::vector<std::vector<session::ComponentStatistics>> statistics;  // per value of `threads`
-  std::vector<std::pair<std::string, std::string>> refused;           // expression, why
+  const session::ThreadValues& threads;                      // who there is, and the check
+  std::vector<Value> values;                                 // what was asked for
+  std::vector<std::pair<std::string, std::string>> refused;  // expression, why it has no value
+  std::set<std::string> unwritten;                           // expressions of what no thread has written yet
+
+  const Value* find(const QString& name) const;  // null: not among `values`
+  session::ThreadValues asked() const;           // the threads with `values` alone
+
+ private:
+  std::shared_ptr<const session::ThreadValues> known_;
 };
 using LookPtr = std::shared_ptr<const Look>;
 
@@ -123,6 +141,7 @@ using RunPtr = std::shared_ptr<const RunView>;
 // The draw's own colour outputs.
 struct TargetView {
   int width = 0, height = 0;
+  session::Check check;  // of the replay that they are read from
   std::vector<session::ColorOutput> outputs;
 };
 using TargetPtr = std::shared_ptr<const TargetView>;

@@ -24,8 +24,8 @@ void ThreadModel::refresh() {
     const session::ThreadValues& threads = look_->threads;
     if (threads.identity.empty()) who_ = {{"x"}, {"y"}};
     for (const session::WatchedValues& one : threads.identity) addColumns(one, who_);
-    for (const session::WatchedValues& one : threads.values)
-      if (!isUniform(one.name)) addColumns(one, columns_);
+    for (const Look::Value& one : look_->values)
+      if (!isUniform(one.watched.name)) addColumns(one.watched, columns_);
     for (std::size_t thread = 0; thread < threads.marks.size(); ++thread) {
       if (threads.marks[thread] == 0) continue;
       if (rows_.size() < kMostRows)
@@ -61,7 +61,6 @@ void ThreadModel::refreshPicked() {
 }
 
 void ThreadModel::addColumns(const session::WatchedValues& value, std::vector<Column>& columns) {
-  if (!value.no_value.empty() || value.name.empty()) return;
   std::size_t word = 0;
   for (const frontend::Component& component : frontend::components(value.type)) {
     columns.push_back({QString::fromStdString(value.name + component.access), &value, word, component.basic});

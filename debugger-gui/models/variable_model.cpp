@@ -154,15 +154,13 @@ QString VariableModel::textOf(const QModelIndex& row) const {
 // ---- what stands in it
 
 const session::WatchedValues* VariableModel::valueOf(const LookPtr& look, const Node& node) const {
-  if (!look) return nullptr;
-  const std::string name = node.target.variable.toStdString();
-  const auto found = std::find_if(look->threads.values.begin(), look->threads.values.end(),
-                                  [&](const session::WatchedValues& value) { return value.name == name; });
-  return found == look->threads.values.end() ? nullptr : &*found;
+  const Look::Value* const found = look ? look->find(node.target.variable) : nullptr;
+  return found == nullptr ? nullptr : &found->watched;
 }
 
 QString VariableModel::valueText(const Node& node) const {
   if (!node.refused.isEmpty()) return tr("not here");
+  if (unwritten(node)) return tr("not written yet");
   const session::WatchedValues* value = valueOf(debugger_.values(), node);
   const auto thread = debugger_.pickedIndex();
   if (value == nullptr || !thread) return {};
@@ -174,6 +172,12 @@ QString VariableModel::valueText(const Node& node) const {
     word += session::wordsPerComponent(components[static_cast<std::size_t>(i)].basic);
   return QString::fromStdString(
       session::formatComponent(components[static_cast<std::size_t>(node.target.component)].basic, word));
+}
+
+// No thread has given it a value on the way here.
+bool VariableModel::unwritten(const Node& node) const {
+  const LookPtr& look = debugger_.values();
+  return look && look->unwritten.count(node.target.variable.toStdString()) > 0;
 }
 
 bool VariableModel::changed(const Node& node) const {
@@ -199,15 +203,15 @@ bool VariableModel::changed(const Node& node) const {
 }
 
 QVariant VariableModel::range(const Node& node, bool high) const {
-  const LookPtr& look = debugger_.values();
-  const session::WatchedValues* value = valueOf(look, node);
-  if (value == nullptr) return {};
-  const auto& statistics = look->statistics[static_cast<std::size_t>(value - look->threads.values.data())];
+  const Look::Value* const found =
+      debugger_.values() ? debugger_.values()->find(node.target.variable) : nullptr;
+  if (found == nullptr) return {};
+  const auto& statistics = found->statistics;
   const std::size_t component =
       node.target.component < 0 ? 0 : static_cast<std::size_t>(node.target.component);
   if ((node.target.component < 0 && statistics.size() != 1) || statistics[component].finite == 0) return {};
   const double number = high ? statistics[component].max : statistics[component].min;
-  const frontend::Basic basic = frontend::components(value->type)[component].basic;
+  const frontend::Basic basic = frontend::components(found->watched.type)[component].basic;
   return QString::fromStdString(basic == frontend::Basic::float_
                                     ? profiler::exactText(static_cast<float>(number))
                                     : profiler::exactText(number));
@@ -242,8 +246,10 @@ QVariant VariableModel::data(const QModelIndex& index, int role) const {
     return font;
   }
   if (role == Qt::ForegroundRole && index.column() != kName && index.column() != kValue) return theme().faint;
-  if (role == Qt::ForegroundRole && is_group) return theme().faint;
+  if (role == Qt::ForegroundRole && (is_group || unwritten(node))) return theme().faint;
   if (role == Qt::ToolTipRole && !node.refused.isEmpty()) return node.refused;
+  if (role == Qt::ToolTipRole && unwritten(node) && index.column() == kValue)
+    return tr("No thread has written it on the way here: what the driver holds there is no value");
   if (role == Qt::ToolTipRole && !is_group && index.column() == kValue) return valueText(node);
   return {};
 }

@@ -39,6 +39,7 @@ class VariableModel : public QAbstractItemModel {
   struct Node;
   std::unique_ptr<Node> build() const;
   QString valueText(const Node&) const;
+  bool unwritten(const Node&) const;
   bool changed(const Node&) const;
   const session::WatchedValues* valueOf(const LookPtr&, const Node&) const;
   QVariant range(const Node&, bool high) const;

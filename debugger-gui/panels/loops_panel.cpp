@@ -7,6 +7,27 @@
 #include "session/text.h"
 
 namespace shadestep::gui {
+namespace {
+
+// What a loop is, wherever it stands: its stage, function and first line, and which of several such it is.
+QStringList identitiesOf(const session::LoopsReport& report, const StageSource* source) {
+  QStringList identities;
+  for (const session::LoopReport& loop : report.loops) {
+    const auto line = static_cast<std::size_t>(loop.line) - 1;
+    const QString text = source != nullptr && line < source->lines.size()
+                             ? QString::fromStdString(source->lines[line]).simplified()
+                             : QString();
+    const QString what = QString("%1 %2: %3 ")
+                             .arg(source != nullptr ? static_cast<int>(source->stage) : -1)
+                             .arg(QString::fromStdString(loop.function), text);
+    int before = 0;
+    while (identities.contains(what + QString::number(before))) ++before;
+    identities.push_back(what + QString::number(before));
+  }
+  return identities;
+}
+
+}  // namespace
 
 LoopsPanel::LoopsPanel(Debugger& debugger, QWidget* parent)
     : QWidget(parent),
@@ -74,15 +95,17 @@ void LoopsPanel::refresh() {
 
 void LoopsPanel::showCurve() {
   const int chosen = loops_->indexOfTopLevelItem(loops_->currentItem());
-  const auto curve = [chosen](const LoopsPtr& report, const QString& name) -> std::optional<LoopCurve> {
-    if (!report || chosen < 0 || chosen >= static_cast<int>(report->loops.size())) return std::nullopt;
-    const session::LoopReport& loop = report->loops[static_cast<std::size_t>(chosen)];
+  const auto curve = [](const LoopsPtr& report, qsizetype i, const QString& name) {
+    const session::LoopReport& loop = report->loops[static_cast<std::size_t>(i)];
     return LoopCurve{name, loop.active, loop.left};
   };
+  if (!debugger_.loops() || chosen < 0) return curves_->show(std::nullopt, {});
+  const QString identity = identitiesOf(*debugger_.loops(), debugger_.source()).value(chosen);
   std::vector<LoopCurve> before;
   for (const Kept& one : kept_)
-    if (auto drawn = curve(one.loops, one.name)) before.push_back(std::move(*drawn));
-  curves_->show(curve(debugger_.loops(), tr("now")), std::move(before));
+    if (const qsizetype i = one.identities.indexOf(identity); i >= 0)
+      before.push_back(curve(one.loops, i, one.name));
+  curves_->show(curve(debugger_.loops(), chosen, tr("now")), std::move(before));
 }
 
 void LoopsPanel::keep() {
@@ -91,8 +114,8 @@ void LoopsPanel::keep() {
   const session::DrawStop& stop = debugger_.stop()->draw.stop;
   QStringList words = debugger_.spec().command;
   if (!words.isEmpty()) words.front() = words.front().section('/', -1);
-  kept_.push_back(
-      {debugger_.loops(), tr("%1, frame %2, draw %3").arg(words.join(' ')).arg(stop.frame).arg(stop.draw)});
+  kept_.push_back({debugger_.loops(), identitiesOf(*debugger_.loops(), debugger_.source()),
+                   tr("%1, frame %2, draw %3").arg(words.join(' ')).arg(stop.frame).arg(stop.draw)});
   if (kept_.size() > kMost) kept_.removeFirst();
   showCurve();
 }

@@ -25,6 +25,7 @@ class LoopsPanel : public QWidget {
   CheckBadge* check_;
   struct Kept {
     LoopsPtr loops;
+    QStringList identities;  // of its loops, so that the same one is found again
     QString name;
   };
   QList<Kept> kept_;  // the last few, oldest first

@@ -42,7 +42,7 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
       check_(new CheckBadge),
       view_(new PictureView),
       landscape_(new LandscapeView),
-      shown_(new QStackedWidget),
+      stack_(new QStackedWidget),
       in_space_(new QToolButton),
       channels_(new QComboBox),
       low_(new QLineEdit),
@@ -107,9 +107,9 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
   tools->addWidget(fit);
   tools->addWidget(save);
   column->addLayout(tools);
-  shown_->addWidget(view_);
-  shown_->addWidget(landscape_);
-  column->addWidget(shown_, 1);
+  stack_->addWidget(view_);
+  stack_->addWidget(landscape_);
+  column->addWidget(stack_, 1);
   auto* sides_row = new QHBoxLayout(sides_);
   sides_row->setContentsMargins(6, 0, 6, 0);
   column->addWidget(sides_);
@@ -172,9 +172,9 @@ void PicturePanel::listSources() {
   if (debugger_.place() && !debugger_.place()->sides.empty())
     add({Kind::outcome, {}, 0}, tr("Outcome of the branch"));
   if (debugger_.values()) {
-    for (const session::WatchedValues& value : debugger_.values()->threads.values) {
-      const QString name = QString::fromStdString(value.name);
-      if (!name.isEmpty()) add({Kind::value, name, 0}, name);
+    for (const Look::Value& value : debugger_.values()->values) {
+      const QString name = QString::fromStdString(value.watched.name);
+      add({Kind::value, name, 0}, name);
     }
   }
   if (debugger_.loops())
@@ -198,25 +198,41 @@ void PicturePanel::listSources() {
   sources_->setCurrentIndex(static_cast<int>(listed_.indexOf(shown)));
 }
 
-PicturePtr PicturePanel::current() const {
-  const PictureSource& shown = debugger_.picture();
-  switch (shown.kind) {
+PicturePanel::Shown PicturePanel::shown() const {
+  const PictureSource& source = debugger_.picture();
+  switch (source.kind) {
     case Kind::target:
-      return pictureOfTarget(debugger_.target(), shown.index);
+      if (const TargetPtr& target = debugger_.target())
+        return {target, nullptr, target->check, [=, i = source.index] { return pictureOfTarget(target, i); }};
+      break;
     case Kind::value:
-      return pictureOfValue(debugger_.values(), shown.name);
+      if (const LookPtr& look = debugger_.values())
+        return {look, nullptr, debugger_.check(),
+                [=, name = source.name] { return pictureOfValue(look, name); }};
+      break;
     case Kind::outcome:
-      return debugger_.place() ? pictureOfOutcome(*debugger_.place(), debugger_.values()) : nullptr;
+      if (const auto& place = debugger_.place())
+        return {debugger_.values(), place->ways, debugger_.check(),
+                [&place, look = debugger_.values()] { return pictureOfOutcome(*place, look); }};
+      break;
     case Kind::iterations:
-      return pictureOfIterations(debugger_.loops(), shown.index);
+      if (const LoopsPtr& loops = debugger_.loops())
+        return {loops, nullptr, loops->check,
+                [=, i = source.index] { return pictureOfIterations(loops, i); }};
+      break;
     case Kind::cost:
-      return pictureOfCost(debugger_.profile());
     case Kind::difference:
-      return pictureOfDifference(debugger_.profile());
+      if (const ProfilePtr& profile = debugger_.profile())
+        return {profile, nullptr, profile->profile.check, [=, cost = source.kind == Kind::cost] {
+                  return cost ? pictureOfCost(profile) : pictureOfDifference(profile);
+                }};
+      break;
     case Kind::texture:
-      return pictureOfTexture(debugger_.texture());
+      if (const TexturePtr& texture = debugger_.texture())
+        return {texture, nullptr, texture->check, [=] { return pictureOfTexture(texture); }};
+      break;
   }
-  return nullptr;
+  return {};
 }
 
 // Of a picture over pixels the picked pixel, of one over other threads the place of the picked one.
@@ -243,23 +259,25 @@ void PicturePanel::pick(int x, int y) {
 
 void PicturePanel::refresh() {
   listSources();
-  const PicturePtr picture = current();
   const QString& name = debugger_.picture().name;
-  view_->setNothing(name.isEmpty() ? tr("Nothing to show here yet") : tr("%1 has no value here").arg(name));
-  view_->setPicture(picture);
+  const bool unwritten = debugger_.values() && debugger_.values()->unwritten.count(name.toStdString()) > 0;
+  view_->setNothing(name.isEmpty() ? tr("Nothing to show here yet")
+                    : unwritten    ? tr("%1 is not written yet").arg(name)
+                                   : tr("%1 has no value here").arg(name));
+  // There are many pixels: the picture is made when something else is to be seen.
+  const Shown now = shown();
+  const auto made_of = std::tuple(debugger_.picture(), now.values, now.ways, theme().no_thread.rgb());
+  if (made_of != made_of_) {
+    made_of_ = made_of;
+    view_->setPicture(now.make ? now.make() : nullptr);
+  }
+  const PicturePtr& picture = view_->picture();
   const bool numbers = picture && picture->colors.empty();
   for (QWidget* tool : std::initializer_list<QWidget*>{low_, high_, automatic_, gamma_})
     tool->setEnabled(numbers);
   channels_->setEnabled(numbers && picture->components > 1);
   view_->setPicked(pickedIn(picture));
-  const Kind kind = debugger_.picture().kind;
-  std::optional<session::Check> check;
-  if (kind == Kind::value || kind == Kind::outcome) check = debugger_.check();
-  if (kind == Kind::iterations && debugger_.loops()) check = debugger_.loops()->check;
-  if ((kind == Kind::cost || kind == Kind::difference) && debugger_.profile())
-    check = debugger_.profile()->profile.check;
-  check_->setVisible(kind != Kind::target && kind != Kind::texture);
-  check_->setCheck(check);
+  check_->setCheck(now.check);
   origin_->setVisible(debugger_.pixel() && debugger_.stage() == session::Stage::fragment &&
                       debugger_.source(session::Stage::vertex) != nullptr);
   showSides();
@@ -307,12 +325,12 @@ void PicturePanel::showHovered(int x, int y) {
 
 void PicturePanel::showInSpace(bool on) {
   in_space_->setChecked(on);
-  shown_->setCurrentWidget(on ? static_cast<QWidget*>(landscape_) : view_);
+  stack_->setCurrentWidget(on ? static_cast<QWidget*>(landscape_) : view_);
   refreshLandscape();
 }
 
 void PicturePanel::refreshLandscape() {
-  if (shown_->currentWidget() == landscape_)
+  if (stack_->currentWidget() == landscape_)
     landscape_->show(view_->picture(), view_->mapping(), view_->image());
 }
 

@@ -9,6 +9,8 @@
 #include <QLineEdit>
 #include <QStackedWidget>
 #include <QToolButton>
+#include <functional>
+#include <tuple>
 
 #include "debugger-gui/debugger.h"
 #include "debugger-gui/views/check_badge.h"
@@ -33,7 +35,13 @@ class PicturePanel : public QWidget {
   void showHovered(int x, int y);
   void takeMapping();
   void exportPicture();
-  PicturePtr current() const;
+  // What the chosen picture is made of, and the check of the draw that this was read from.
+  struct Shown {
+    std::shared_ptr<const void> values, ways;
+    std::optional<session::Check> check;
+    std::function<PicturePtr()> make;  // none: there is nothing to show
+  };
+  Shown shown() const;
   std::optional<QPoint> pickedIn(const PicturePtr&) const;
   void pick(int x, int y);
 
@@ -42,7 +50,7 @@ class PicturePanel : public QWidget {
   CheckBadge* check_;
   PictureView* view_;
   LandscapeView* landscape_;
-  QStackedWidget* shown_;
+  QStackedWidget* stack_;
   QToolButton* in_space_;
   QComboBox* channels_;
   QLineEdit *low_, *high_;
@@ -52,6 +60,8 @@ class PicturePanel : public QWidget {
   QLabel* hovered_;
   QToolButton* origin_;
   QList<PictureSource> listed_;
+  // The picture that is shown: source, values, ways and the theme's colours.
+  std::tuple<PictureSource, std::shared_ptr<const void>, std::shared_ptr<const void>, QRgb> made_of_;
 };
 
 }  // namespace shadestep::gui

@@ -1,8 +1,8 @@
 #include "debugger-gui/panels/run_panel.h"
 
 #include <QHeaderView>
-#include <QVBoxLayout>
 
+#include "debugger-gui/panels/page.h"
 #include "debugger-gui/style/theme.h"
 #include "session/values.h"
 
@@ -84,9 +84,13 @@ QVariant RunModel::headerData(int section, Qt::Orientation orientation, int role
 }
 
 RunPanel::RunPanel(Debugger& debugger, QWidget* parent)
-    : QWidget(parent), debugger_(debugger), model_(debugger), summary_(new QLabel), table_(new QTableView) {
+    : QWidget(parent),
+      debugger_(debugger),
+      model_(debugger),
+      summary_(new QLabel),
+      check_(new CheckBadge),
+      table_(new QTableView) {
   summary_->setWordWrap(true);
-  summary_->setContentsMargins(8, 4, 8, 0);
   table_->setModel(&model_);
   table_->setShowGrid(false);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -99,11 +103,8 @@ RunPanel::RunPanel(Debugger& debugger, QWidget* parent)
   table_->setAccessibleName(tr("Steps of the picked thread"));
   for (const auto& [column, width] : {std::pair{0, 52}, {1, 46}, {2, 66}, {3, 330}})
     table_->setColumnWidth(column, width);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addWidget(summary_);
-  column->addWidget(table_, 1);
+  summary_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  layOutPage(*this, {summary_, check_}, table_);
   connect(table_, &QTableView::clicked, this,
           [this](const QModelIndex& index) { debugger_.moveToStep(index.row()); });
   connect(table_, &QTableView::activated, this,
@@ -126,6 +127,7 @@ void RunPanel::refresh() {
             ? tr("Click a pixel in the picture: its thread's whole way is recorded here.")
             : tr("Choose a row in Threads: its thread's whole way is recorded here."));
   const RunPtr& run = debugger_.run();
+  check_->setCheck(run ? std::optional(run->run.check) : std::nullopt);
   if (!run) {
     return summary_->setText(debugger_.runReason().isEmpty() ? tr("No recording of %1 yet").arg(name)
                                                              : debugger_.runReason());

@@ -6,6 +6,7 @@
 #include <QTableView>
 
 #include "debugger-gui/debugger.h"
+#include "debugger-gui/views/check_badge.h"
 
 namespace shadestep::gui {
 
@@ -42,6 +43,7 @@ class RunPanel : public QWidget {
   Debugger& debugger_;
   RunModel model_;
   QLabel* summary_;
+  CheckBadge* check_;
   QTableView* table_;
 };
 

@@ -137,8 +137,10 @@ QString SourceTabs::describe(const QString& expression) const {
   if (!look) return {};
   QString variable = expression;
   while (!variable.isEmpty()) {
-    for (const session::WatchedValues& value : look->threads.values) {
-      if (QString::fromStdString(value.name) != variable) continue;
+    if (look->unwritten.count(variable.toStdString()) > 0)
+      return QString("<b>%1</b>&nbsp; %2").arg(variable, tr("not written yet"));
+    if (const Look::Value* const found = look->find(variable)) {
+      const session::WatchedValues& value = found->watched;
       QStringList lines{QString("<b>%1</b>&nbsp; %2")
                             .arg(variable, QString::fromStdString(frontend::glslName(value.type)))};
       if (const auto thread = debugger_.pickedIndex())
@@ -160,7 +162,8 @@ void SourceTabs::editBreakpoint(int line) {
   auto* dialog = new QInputDialog(this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Breakpoint at line %1").arg(line));
-  dialog->setLabelText(tr("Stop the picked thread here only if (an expression, such as: i > 40 && dst.a > 0.9; empty: always)"));
+  dialog->setLabelText(tr(
+      "Stop the picked thread here only if (an expression, such as: i > 40 && dst.a > 0.9; empty: always)"));
   dialog->setTextValue(before.condition);
   connect(dialog, &QInputDialog::textValueSelected, this, [this, line, before](const QString& condition) {
     Breakpoint after = before;

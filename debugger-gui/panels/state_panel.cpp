@@ -6,6 +6,7 @@
 #include <QMap>
 #include <QVBoxLayout>
 
+#include "debugger-gui/panels/page.h"
 #include "debugger-gui/style/theme.h"
 
 namespace shadestep::gui {
@@ -47,11 +48,7 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
   tree_->setRootIsDecorated(false);
   tree_->setColumnWidth(0, 330);
   auto* state = new QWidget;
-  auto* left = new QVBoxLayout(state);
-  left->setContentsMargins(0, 4, 0, 0);
-  left->setSpacing(4);
-  left->addWidget(search_);
-  left->addWidget(tree_, 1);
+  layOutPage(*state, {search_}, tree_);
   auto* tests = new QGridLayout;
   tests->setVerticalSpacing(5);
   auto* title = new QLabel(tr("Replays of the debugger"));
@@ -105,18 +102,8 @@ QWidget* StatePanel::makeTextures() {
     textures_->setColumnWidth(column, width);
   level_->setPrefix(tr("level "));
   slice_->setPrefix(tr("slice "));
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(6, 4, 6, 0);
-  head->addWidget(new QLabel(tr("A click shows the texels in the picture:")));
-  head->addWidget(level_);
-  head->addWidget(slice_);
-  head->addStretch();
   auto* page = new QWidget;
-  auto* column = new QVBoxLayout(page);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(head);
-  column->addWidget(textures_, 1);
+  layOutPage(*page, {new QLabel(tr("A click shows the texels in the picture:")), level_, slice_}, textures_);
   connect(textures_, &QTreeWidget::itemClicked, this, &StatePanel::chooseTexture);
   connect(textures_, &QTreeWidget::itemActivated, this, &StatePanel::chooseTexture);
   for (QSpinBox* box : {level_, slice_})
@@ -175,6 +162,10 @@ void StatePanel::chooseTexture() {
   level_->setRange(chosen.facts.base_level,
                    chosen.facts.base_level + static_cast<int>(chosen.facts.levels.size()) - 1);
   level_->setValue(chosen.facts.base_level);
+  const bool cube = chosen.type.find("Cube") != std::string::npos;
+  slice_->setPrefix(cube ? tr("face ") : tr("slice "));
+  slice_->setToolTip(cube ? tr("+x, -x, +y, -y, +z, -z; of an array of cube maps six of each") : QString());
+  if (cube) level_->setMaximum(level_->minimum());
   slice_->setRange(0, std::max(depth, 1) - 1);
   slice_->setValue(chosen.type.find("3D") != std::string::npos ? depth / 2 : 0);
   readTexture();

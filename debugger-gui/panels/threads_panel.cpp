@@ -8,6 +8,7 @@
 #include <QShortcut>
 #include <QVBoxLayout>
 
+#include "debugger-gui/panels/page.h"
 #include "debugger-gui/style/theme.h"
 #include "profiler/pictures/files.h"
 #include "session/text.h"
@@ -119,17 +120,8 @@ QWidget* ThreadsPanel::makeTree() {
   emitting_only_->setChecked(true);
   auto* read = new QPushButton(tr("Read"));
   read->setToolTip(tr("What the geometry shader of this draw makes of each input primitive"));
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(6, 4, 6, 0);
-  head->addWidget(read);
-  head->addWidget(emitting_only_);
-  head->addStretch();
   auto* page = new QWidget;
-  auto* column = new QVBoxLayout(page);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(head);
-  column->addWidget(tree_, 1);
+  layOutPage(*page, {read, emitting_only_}, tree_);
   connect(read, &QPushButton::clicked, &debugger_, &Debugger::askEmits);
   connect(emitting_only_, &QCheckBox::toggled, this, &ThreadsPanel::refreshMade);
   connect(tree_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
@@ -272,7 +264,7 @@ void ThreadsPanel::exportCsv() {
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QFileDialog::fileSelected, this, [this, look](const QString& file) {
     try {
-      profiler::writeFile(file.toStdString(), session::asCsv(look->threads));
+      profiler::writeFile(file.toStdString(), session::asCsv(look->asked()));
       Q_EMIT debugger_.message(tr("Wrote %1").arg(file), false);
     } catch (const std::exception& error) {
       Q_EMIT debugger_.message(QString::fromUtf8(error.what()), true);

@@ -8,6 +8,7 @@
 #include <QShortcut>
 #include <QVBoxLayout>
 
+#include "debugger-gui/panels/page.h"
 #include "profiler/pictures/files.h"
 #include "session/text.h"
 
@@ -32,16 +33,8 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   for (const auto& [column, width] : {std::pair{0, 106}, {1, 196}, {2, 70}, {3, 70}})
     tree_->setColumnWidth(column, width);
 
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(6, 4, 6, 0);
-  head->addWidget(expression_);
-  head->addWidget(check_);
-  column->addLayout(head);
-  column->addWidget(tree_, 1);
-  column->addWidget(histogram_);
+  layOutPage(*this, {expression_, check_}, tree_);
+  layout()->addWidget(histogram_);
 
   connect(expression_, &QLineEdit::returnPressed, this, [this] {
     debugger_.addWatch(expression_->text());
@@ -127,7 +120,7 @@ void VariablesPanel::showMenu(const QPoint& position) {
 void VariablesPanel::exportCsv(const QString& expression) {
   const LookPtr look = debugger_.values();
   if (!look) return;
-  session::ThreadValues threads = look->threads;
+  session::ThreadValues threads = look->asked();
   std::erase_if(threads.values,
                 [&](const auto& value) { return QString::fromStdString(value.name) != expression; });
   auto* dialog =

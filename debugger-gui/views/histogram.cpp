@@ -34,13 +34,13 @@ void Histogram::show(const LookPtr& look, const QString& name, int component,
   update();
   if (!look) return;
   const session::ThreadValues& threads = look->threads;
-  const auto value = std::find_if(threads.values.begin(), threads.values.end(),
-                                  [&](const auto& one) { return QString::fromStdString(one.name) == name; });
-  if (value == threads.values.end()) return;
+  const Look::Value* found = look->find(name);
+  if (found == nullptr) return;
+  const session::WatchedValues* value = &found->watched;
   const auto components = frontend::components(value->type);
   const auto which = static_cast<std::size_t>(std::max(component, 0));
   if (which >= components.size()) return;
-  const auto& statistics = look->statistics[static_cast<std::size_t>(value - threads.values.begin())][which];
+  const auto& statistics = found->statistics[which];
   title_ = name + QString::fromStdString(statistics.access);
   note_ = tr("%1 threads").arg(QString::fromStdString(session::withThousands(threads.reached)));
   if (statistics.nan > 0) note_ += tr(", %1 NaN").arg(statistics.nan);

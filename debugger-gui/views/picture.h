@@ -19,10 +19,11 @@ struct Picture {
     not_reached,  // ran, but did not get to the place looked at
     reached,
   };
-  enum class Scale { values, cost, difference };  // which colours single numbers have
+  enum class Scale { values, grey, cost, difference };  // which colours single numbers have
 
   int width = 0, height = 0;
   int components = 1;         // 1 to 4
+  int meaningful = 0;         // the first of them that are shown together; 0: all
   std::vector<float> values;  // width * height * components, rows bottom up
   std::vector<QRgb> colors;   // shown instead of the numbers, if there are any
   std::vector<Cell> cells;    // a pixel each

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "debugger-gui/style/theme.h"
+#include "debugger-gui/views/value_glyphs.h"
 #include "profiler/pictures/colors.h"
 #include "profiler/pictures/heat_map.h"
 
@@ -17,7 +18,7 @@ namespace shadestep::gui {
 namespace {
 
 constexpr double kLargestScale = 160;
-constexpr double kValuesFrom = 34;  // screen pixels per pixel: values are printed
+constexpr double kValuesFrom = 34;  // screen pixels per pixel: values are printed, if they can be read
 constexpr double kGridFrom = 8;
 
 QRgb packed(const profiler::Color& color) {
@@ -36,7 +37,9 @@ Table tableOf(profiler::Color (*colors)(double)) {
 const Table& tableFor(Picture::Scale scale) {
   static const Table kSequential = tableOf(profiler::sequentialColor);
   static const Table kDifference = tableOf(profiler::differenceColor);
-  return scale == Picture::Scale::difference ? kDifference : kSequential;
+  static const Table kGrey = tableOf([](double t) { return profiler::Color{t, t, t}; });
+  if (scale == Picture::Scale::difference) return kDifference;
+  return scale == Picture::Scale::grey ? kGrey : kSequential;
 }
 
 }  // namespace
@@ -77,25 +80,35 @@ void PictureView::setPicked(std::optional<QPoint> pixel) {
 
 // ---- numbers to colours
 
+// One, by the colour map, or the first three as red, green and blue.
+PictureView::Channels PictureView::channelsShown() const {
+  const auto count =
+      static_cast<std::size_t>(picture_->meaningful > 0 ? picture_->meaningful : picture_->components);
+  if (mapping_.channels == Mapping::Channels::all) return {0, std::min<std::size_t>(count, 3)};
+  const auto only = std::min<std::size_t>(static_cast<std::size_t>(mapping_.channels) - 1,
+                                          static_cast<std::size_t>(picture_->components) - 1);
+  return {only, only + 1};
+}
+
 void PictureView::findRange() {
   if (!mapping_.automatic || !picture_ || !picture_->colors.empty()) return;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   const auto count = static_cast<std::size_t>(picture_->components);
-  const bool alone = mapping_.channels != Mapping::Channels::all;
-  const std::size_t only = alone ? static_cast<std::size_t>(mapping_.channels) - 1 : 0;
+  const Channels channels = channelsShown();
   for (std::size_t p = 0; p < picture_->cells.size(); ++p) {
     if (picture_->cells[p] != Picture::Cell::reached) continue;
-    for (std::size_t c = 0; c < std::min<std::size_t>(count, 3); ++c) {
-      const std::size_t shown = alone ? std::min(only, count - 1) : c;
-      const double value = static_cast<double>(picture_->values[p * count + shown]);
+    for (std::size_t c = channels.first; c < channels.end; ++c) {
+      const double value = static_cast<double>(picture_->values[p * count + c]);
       if (!std::isfinite(value)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
     }
   }
   if (low > high) low = 0, high = 1;
-  if ((picture_->as_is || (count > 1 && !alone && low >= 0 && high <= 1)) && !alone) low = 0, high = 1;
+  const bool together = mapping_.channels == Mapping::Channels::all;
+  const bool colors = channels.end - channels.first > 1 && low >= 0 && high <= 1;
+  if (together && (picture_->as_is || colors)) low = 0, high = 1;
   if (picture_->scale == Picture::Scale::difference) {
     high = std::max(std::abs(low), std::abs(high));
     low = -high;
@@ -132,21 +145,19 @@ void PictureView::render() {
     const double t = std::clamp((static_cast<double>(value) - mapping_.low) / span, 0.0, 1.0);
     return mapping_.gamma == 1 ? t : std::pow(t, 1 / mapping_.gamma);
   };
-  const bool single = count == 1 || mapping_.channels != Mapping::Channels::all;
-  const std::size_t only = mapping_.channels == Mapping::Channels::all
-                               ? 0
-                               : std::min(static_cast<std::size_t>(mapping_.channels) - 1, count - 1);
+  const auto rounded = [](double number) { return static_cast<std::size_t>(number + 0.5); };
+  const Channels channels = channelsShown();
   const Table& table = tableFor(picture_->scale);
+  const QRgb nan = theme().nan.rgb();
+  const QRgb infinite = theme().infinite.rgb();
   const auto color = [&](const float* values) -> QRgb {
-    for (std::size_t c = single ? only : 0; c < (single ? only + 1 : std::min<std::size_t>(count, 3)); ++c) {
-      if (std::isnan(values[c])) return theme().nan.rgb();
-      if (std::isinf(values[c])) return theme().infinite.rgb();
-    }
-    if (single)
-      return table[static_cast<std::size_t>(position(values[only]) * static_cast<double>(table.size() - 1))];
+    for (std::size_t c = channels.first; c < channels.end; ++c)
+      if (!std::isfinite(values[c])) return std::isnan(values[c]) ? nan : infinite;
+    if (channels.end == channels.first + 1)
+      return table[rounded(position(values[channels.first]) * static_cast<double>(table.size() - 1))];
     int rgb[3] = {0, 0, 0};
-    for (std::size_t c = 0; c < std::min<std::size_t>(count, 3); ++c)
-      rgb[c] = static_cast<int>(std::lround(255 * position(values[c])));
+    for (std::size_t c = channels.first; c < channels.end; ++c)
+      rgb[c] = static_cast<int>(rounded(255 * position(values[c])));
     return qRgb(rgb[0], rgb[1], rgb[2]);
   };
   const QRgb none = theme().no_thread.rgb();
@@ -231,25 +242,22 @@ void PictureView::paintHatching(QPainter& painter, const QRectF& where) const {
 }
 
 void PictureView::paintValues(QPainter& painter, const QRect& pixels) {
-  QFont font = monospaced();
   const int lines = picture_->colors.empty() ? picture_->components : 1;
-  font.setPixelSize(static_cast<int>(std::clamp(scale_ / (lines + 1.5), 6.0, 13.0)));
-  painter.setFont(font);
+  const double size = scale_ / (lines + 1.5);
+  constexpr double kSmallest = 8, kLargest = 13;  // screen pixels
+  if (size < kSmallest) return;
+  QFont font = monospaced();
+  font.setPixelSize(static_cast<int>(std::min(size, kLargest)));
+  ValueGlyphs glyphs(font);
   for (int row = pixels.top(); row <= pixels.bottom(); ++row) {
     for (int x = pixels.left(); x <= pixels.right(); ++x) {
-      const int y = picture_->height - 1 - row;
-      const std::size_t p = picture_->index(x, y);
+      const std::size_t p = picture_->index(x, picture_->height - 1 - row);
       if (picture_->cells[p] != Picture::Cell::reached) continue;
-      const QColor background = QColor::fromRgb(image_.pixel(x, row));
-      const bool is_dark = qGray(background.rgb()) < 128;
-      painter.setPen(is_dark ? Qt::white : Qt::black);
       const QRectF cell(frame().left() + x * scale_, frame().top() + row * scale_, scale_, scale_);
-      QStringList texts = picture_->texts(picture_->thread(p));
-      for (QString& one : texts)
-        one = painter.fontMetrics().elidedText(one, Qt::ElideRight, static_cast<int>(scale_) - 3);
-      painter.drawText(cell, Qt::AlignCenter, texts.join('\n'));
+      glyphs.add(cell, picture_->texts(picture_->thread(p)), qGray(image_.pixel(x, row)) < 128);
     }
   }
+  glyphs.paint(painter);
 }
 
 // ---- where things are

@@ -58,6 +58,10 @@ class PictureView : public QWidget {
   void resizeEvent(QResizeEvent*) override;
 
  private:
+  struct Channels {
+    std::size_t first = 0, end = 0;
+  };
+  Channels channelsShown() const;
   void findRange();
   void render();
   void zoomAround(const QPointF& position, double factor);

@@ -1,5 +1,6 @@
 #include <QObject>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "debugger-gui/style/theme.h"
@@ -32,8 +33,14 @@ struct Components {
       word += static_cast<std::size_t>(session::wordsPerComponent(one.basic));
     }
   }
-  float number(std::size_t component, const std::uint32_t* at) const {
-    return static_cast<float>(session::componentAsDouble(list[component].basic, at + words[component]));
+  // The first `count` of them.
+  void numbers(const std::uint32_t* at, std::size_t count, float* into) const {
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::uint32_t* word = at + words[c];
+      into[c] = list[c].basic == frontend::Basic::float_
+                    ? std::bit_cast<float>(*word)
+                    : static_cast<float>(session::componentAsDouble(list[c].basic, word));
+    }
   }
   QStringList texts(const std::uint32_t* at, std::size_t most) const {
     QStringList result;
@@ -114,6 +121,20 @@ QRgb rgb(const profiler::Color& color) {
               static_cast<int>(std::lround(255 * color.b)));
 }
 
+// How many channels texels have: what a format lacks is read as 0, 0, 1.
+int channelsOf(const std::vector<float>& texels) {
+  int channels = 1;
+  for (std::size_t i = 0; i < texels.size() && channels < 4; i += 4) {
+    if (texels[i + 3] != 1)
+      channels = 4;
+    else if (texels[i + 2] != 0)
+      channels = 3;
+    else if (texels[i + 1] != 0)
+      channels = std::max(channels, 2);
+  }
+  return channels;
+}
+
 }  // namespace
 
 PicturePtr pictureOfTarget(const TargetPtr& target, int output) {
@@ -123,8 +144,7 @@ PicturePtr pictureOfTarget(const TargetPtr& target, int output) {
   if (color.words.size() < picture->values.size()) return nullptr;
   const Components components(color.type);
   for (std::size_t p = 0; p < picture->cells.size(); ++p) {
-    for (std::size_t c = 0; c < 4; ++c)
-      picture->values[p * 4 + c] = components.number(c, &color.words[p * 4]);
+    components.numbers(&color.words[p * 4], 4, &picture->values[p * 4]);
     picture->cells[p] = Picture::Cell::reached;
   }
   picture->as_is = color.type.basic == frontend::Basic::float_;
@@ -137,23 +157,20 @@ PicturePtr pictureOfTarget(const TargetPtr& target, int output) {
 
 PicturePtr pictureOfValue(const LookPtr& look, const QString& name) {
   if (!look) return nullptr;
-  const session::ThreadValues& threads = look->threads;
-  const auto found = std::find_if(threads.values.begin(), threads.values.end(),
-                                  [&](const auto& value) { return text(value.name) == name; });
-  if (found == threads.values.end()) return nullptr;
-  const Components components(found->type);
+  const Look::Value* const found = look->find(name);
+  if (found == nullptr) return nullptr;
+  const session::WatchedValues& watched = found->watched;
+  const Components components(watched.type);
   const std::size_t shown = std::min<std::size_t>(components.list.size(), 4);
   if (shown == 0) return nullptr;
   const auto picture = overThreads(look, static_cast<int>(shown));
   for (std::size_t p = 0; p < picture->cells.size(); ++p) {
     if (picture->cells[p] != Picture::Cell::reached) continue;
-    for (std::size_t c = 0; c < shown; ++c)
-      picture->values[p * shown + c] = components.number(c, found->at(picture->thread(p)));
+    components.numbers(watched.at(picture->thread(p)), shown, &picture->values[p * shown]);
   }
   picture->title = name;
-  const auto which = static_cast<std::size_t>(found - threads.values.begin());
-  picture->texts = [look, which, components, shown](std::size_t thread) {
-    return components.texts(look->threads.values[which].at(thread), shown);
+  picture->texts = [look, &watched, components, shown](std::size_t thread) {
+    return components.texts(watched.at(thread), shown);
   };
   return picture;
 }
@@ -197,12 +214,12 @@ PicturePtr pictureOfOutcome(const Place& place, const LookPtr& look) {
 PicturePtr pictureOfIterations(const LoopsPtr& loops, int loop) {
   if (!loops || loop < 0 || loop >= static_cast<int>(loops->loops.size())) return nullptr;
   const session::LoopReport& report = loops->loops[static_cast<std::size_t>(loop)];
-  const auto who = std::make_shared<Look>();
-  who->threads.width = loops->width;
-  who->threads.height = loops->height;
-  who->threads.marks = loops->marks;
-  who->threads.identity = loops->identity;
-  const auto picture = overThreads(who, 1);
+  auto who = std::make_shared<session::ThreadValues>();
+  who->width = loops->width;
+  who->height = loops->height;
+  who->marks = loops->marks;
+  who->identity = loops->identity;
+  const auto picture = overThreads(std::make_shared<Look>(std::move(who)), 1);
   for (std::size_t p = 0; p < picture->cells.size(); ++p) {
     if (picture->cells[p] == Picture::Cell::none) continue;
     picture->cells[p] = Picture::Cell::reached;
@@ -279,10 +296,11 @@ PicturePtr pictureOfTexture(const TexturePtr& texture) {
   const auto picture = sized(texture->width, texture->height, 4);
   const Components components(texture->type);
   for (std::size_t p = 0; p < picture->cells.size(); ++p) {
-    for (std::size_t c = 0; c < 4; ++c)
-      picture->values[p * 4 + c] = components.number(c, &texture->words[p * 4]);
+    components.numbers(&texture->words[p * 4], 4, &picture->values[p * 4]);
     picture->cells[p] = Picture::Cell::reached;
   }
+  picture->scale = Picture::Scale::grey;
+  picture->meaningful = channelsOf(picture->values);
   picture->title = text(texture->uniform);
   picture->who = [texture](std::size_t p) {
     const auto width = static_cast<std::size_t>(texture->width);

@@ -208,10 +208,10 @@ TEST(Draw, TakesTwoHundredRandomActions) {
       debugger.toggleBreakpoint(1 + below(60));
     } else if (which == 26) {
       debugger.addWatch(QStringList({"dst", "dst.rgb", "i", "no such", "pos.x", "gl_FragCoord"})[below(6)]);
-    } else if (which == 27 && debugger.values() && !debugger.values()->threads.values.empty()) {
-      const auto& values = debugger.values()->threads.values;
+    } else if (which == 27 && debugger.values() && !debugger.values()->values.empty()) {
+      const auto& values = debugger.values()->values;
       const auto& value = values[static_cast<std::size_t>(below(static_cast<int>(values.size())))];
-      debugger.show({gui::PictureSource::Kind::value, QString::fromStdString(value.name), 0});
+      debugger.show({gui::PictureSource::Kind::value, QString::fromStdString(value.watched.name), 0});
     } else if (which == 28 && debugger.place() && !debugger.place()->sides.empty()) {
       debugger.show({gui::PictureSource::Kind::outcome, {}, 0});
       debugger.choose(below(2) == 0 ? "true" : "false");

@@ -94,7 +94,7 @@ TEST(Session, ShowsAVariableAsAPicture) {
   window.press("over");
   ASSERT_TRUE(window.debugger().values());
   ASSERT_FALSE(window.debugger().values()->threads.values.empty());
-  const QString name = QString::fromStdString(window.debugger().values()->threads.values.front().name);
+  const QString name = QString::fromStdString(window.debugger().values()->values.front().watched.name);
   window.debugger().show({gui::PictureSource::Kind::value, name, 0});
   window.settle();
   const gui::PicturePtr picture = window->picture().view().picture();
@@ -105,6 +105,38 @@ TEST(Session, ShowsAVariableAsAPicture) {
   const QString row = window.shown(name);
   EXPECT_EQ(numbersIn(pixel.section(':', 1)), numbersIn(row))
       << pixel.toStdString() << " / " << row.toStdString();
+}
+
+// What the driver has for an output that is not written yet is no value.
+TEST(Session, AnOutputHasNoValueBeforeItIsWritten) {
+  Window window;
+  window.start(smallRaycaster());
+  window.pick(32, 30);
+  window.debugger().addWatch("FragColor.r");
+  window.settle();
+  EXPECT_EQ(window.shown("FragColor"), "not written yet");
+  EXPECT_EQ(window.shown("FragColor.r"), "not written yet");
+  window.debugger().show({gui::PictureSource::Kind::value, "FragColor", 0});
+  window.settle();
+  EXPECT_FALSE(window->picture().view().picture());
+
+  window.debugger().selectStage(session::Stage::vertex);
+  window.settle();
+  window.debugger().pick(session::ThreadName{{"vertex", 3}, {"instance", 0}});
+  window.settle();
+  EXPECT_EQ(window.shown("gl_Position"), "not written yet");
+  const auto& lines = window.debugger().source()->lines;
+  const auto written = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.find("gl_Position =") != std::string::npos;
+  });
+  ASSERT_NE(written, lines.end());
+  const int line = static_cast<int>(written - lines.begin()) + 1;
+  ASSERT_TRUE(window.stepTo(line));
+  EXPECT_EQ(window.shown("gl_Position"), "not written yet");
+  window.press("over");
+  if (!window.debugger().place()->ended) {
+    EXPECT_TRUE(window.shown("gl_Position").startsWith("vec4(")) << window.shown("gl_Position").toStdString();
+  }
 }
 
 TEST(Session, AnIncludedStringHasATabOfItsOwn) {

@@ -108,6 +108,16 @@ TEST(Steps, ABranchShowsItsOutcomeAndEitherSideCanBeFollowed) {
   EXPECT_NE(window.debugger().place()->position, place.position);
 }
 
+TEST(Steps, TheRunHasItsCheckBesideIt) {
+  Window window;
+  window.start(smallRaycaster());
+  auto* badge = window->dock("run")->findChild<gui::CheckBadge*>();
+  ASSERT_NE(badge, nullptr);
+  EXPECT_EQ(badge->text(), "no values yet");
+  window.pick(32, 30);
+  EXPECT_EQ(badge->text(), "identical");
+}
+
 TEST(Steps, TheSliderGoesToAnIteration) {
   Window window;
   window.start(smallRaycaster());

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <fstream>
+#include <set>
 
 #include "debugger-gui/panels/state_panel.h"
 #include "window.h"
@@ -93,11 +94,40 @@ TEST_F(Textures, AreListedWithWhatTheyAre) {
   EXPECT_EQ(window_.debugger().texture()->slice, 2);
 }
 
-TEST_F(Textures, SaysWhyACubeMapIsNotShown) {
-  window_.debugger().askTexture("cube", 0, 0);
+TEST_F(Textures, ShowTheFacesOfACubeMap) {
+  for (int face = 0; face < 6; ++face) expect("cube", 0, face, 4, 4, face);
+  window_.debugger().askTexture("cube", 1, 0);
   window_.settle();
-  EXPECT_FALSE(window_.debugger().texture());
-  EXPECT_TRUE(window_.lastMessage().contains("cube map")) << window_.lastMessage().toStdString();
+  EXPECT_TRUE(window_.lastMessage().contains("base level")) << window_.lastMessage().toStdString();
+}
+
+TEST_F(Textures, HaveTheirCheckBesideThem) {
+  auto* badge = window_->picture().findChild<gui::CheckBadge*>();
+  ASSERT_NE(badge, nullptr);
+  EXPECT_EQ(badge->text(), "identical") << "of the draw's picture";
+  window_.debugger().askTexture("volume", 0, 2);
+  window_.settle();
+  EXPECT_TRUE(badge->isVisibleTo(&window_->picture()));
+  EXPECT_EQ(badge->text(), "identical");
+  EXPECT_EQ(window_.debugger().texture()->check.compared, 4U * 4 * 4);
+}
+
+// The ray caster's volume has one channel.
+TEST(OneChannel, IsShownGrey) {
+  Window window;
+  window.start(smallRaycaster());
+  window.debugger().askTexture("volume", 0, 32);
+  window.settle();
+  const QImage image = window->picture().view().image();
+  ASSERT_FALSE(image.isNull()) << window.lastMessage().toStdString();
+  std::set<QRgb> colours;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) colours.insert(image.pixel(x, y));
+  EXPECT_GT(colours.size(), 3U);
+  for (const QRgb colour : colours) {
+    EXPECT_EQ(qRed(colour), qGreen(colour));
+    EXPECT_EQ(qRed(colour), qBlue(colour));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include "debugger-gui/backend/debuggee.h"
+#include "session/window.h"
+#include "session/written.h"
+
+namespace shadestep::gui {
+
+const Look::Value* Look::find(const QString& name) const {
+  const std::string wanted = name.toStdString();
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [&](const Value& one) { return one.watched.name == wanted; });
+  return found == values.end() ? nullptr : &*found;
+}
+
+session::ThreadValues Look::asked() const {
+  session::ThreadValues only{threads.width,     threads.height, threads.launched, threads.reached,
+                             threads.discarded, threads.marks,  threads.identity, {},
+                             threads.statement, threads.check};
+  for (const Value& one : values) only.values.push_back(one.watched);
+  return only;
+}
+
+LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
+  session::Stepper& at = stepper();
+  if (at.ended()) return std::make_shared<Look>(std::make_shared<const session::ThreadValues>());
+  const instrumenter::Probe probe = session::probeAt(at.shader(), at.position());
+  std::vector<std::string> wanted;
+  std::vector<std::pair<std::string, std::string>> refused;
+  std::set<std::string> unwritten;
+  for (const std::string& expression : expressions) {
+    const frontend::WatchResult found = session::watchAt(at.shader(), probe, expression);
+    if (!found.watch)
+      refused.emplace_back(expression, found.error);
+    else if (!session::mayBeWritten(at.shader(), at.position(), *found.watch))
+      unwritten.insert(expression);
+    else
+      wanted.push_back(expression);
+  }
+  auto look = std::make_shared<Look>(at.lookShared(wanted));
+  look->stage = picked_.stage;
+  look->refused = std::move(refused);
+  look->unwritten = std::move(unwritten);
+  for (const std::string& name : wanted) {
+    const auto& values = look->threads.values;
+    const auto found =
+        std::find_if(values.begin(), values.end(), [&](const auto& one) { return one.name == name; });
+    if (found == values.end()) continue;
+    if (found->no_value.empty())
+      look->values.push_back({*found, session::statistics(look->threads, *found)});
+    else
+      look->refused.emplace_back(name, found->no_value);
+  }
+  return look;
+}
+
+}  // namespace shadestep::gui
