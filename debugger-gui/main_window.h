@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QMainWindow>
 #include <QMap>
+#include <QMenu>
 #include <QProgressBar>
 #include <QTimer>
 #include <QToolButton>
@@ -47,6 +48,8 @@ class MainWindow : public QMainWindow {
  private:
   void makeActions();
   void makeMenus();
+  void makeGoTo(QMenu&);
+  void tidyTitles();
   void makeToolBar();
   void makeDocks();
   void makeStatus();
@@ -67,7 +70,7 @@ class MainWindow : public QMainWindow {
   ThreadsPanel* threads_;
   QFrame* notice_;
   QLabel* notice_text_;
-  QTimer notice_timer_;
+  QTimer notice_timer_, titles_later_;
   QLabel *state_, *driver_, *busy_;
   QProgressBar* progress_;
   QToolButton* cancel_;

@@ -35,7 +35,7 @@ QAction* MainWindow::make(const QString& name, const QString& text, const QStrin
 void MainWindow::makeActions() {
   Debugger& debugger = debugger_;
   make("start", tr("&Run..."), tr("Run a program"), {QKeySequence("Ctrl+R")}, [this] { askForProgram(); });
-  make("stop", tr("&End the program"), tr("End the program"), {QKeySequence("Ctrl+.")},
+  make("stop", tr("End the pro&gram"), tr("End the program"), {QKeySequence("Ctrl+.")},
        [&] { debugger.endProgram(); });
   make("open", tr("&Open a session..."), tr("Open a session file"), {QKeySequence::Open}, [this] {
     auto* dialog = new QFileDialog(this, tr("Open a session"), {}, tr("Session (*.shadestep)"));
@@ -71,7 +71,7 @@ void MainWindow::makeActions() {
        [&] { debugger.move(Move::into); });
   make("out", tr("Step o&ut"), tr("Back to the caller"), {QKeySequence("Shift+F11")},
        [&] { debugger.move(Move::out); });
-  make("back", tr("Step &back"), tr("Back to the statement before"), {QKeySequence("Shift+F10")},
+  make("back", tr("Step bac&k"), tr("Back to the statement before"), {QKeySequence("Shift+F10")},
        [&] { debugger.back(); });
   make("back-into", tr("Step back into"), tr("Back to the step before, into calls too"),
        {QKeySequence("Ctrl+F11")}, [&] { debugger.backInto(); });
@@ -81,10 +81,21 @@ void MainWindow::makeActions() {
        [&] { debugger.move(Move::next_iteration); });
   make("leave-loop", tr("&Leave the loop"), tr("Past the loop"), {QKeySequence("Shift+F12")},
        [&] { debugger.move(Move::leave_loop); });
-  make("breakpoint", tr("&Breakpoint"), tr("Set or remove a breakpoint at the cursor"), {QKeySequence("F9")},
+  make("breakpoint", tr("Break&point"), tr("Set or remove a breakpoint at the cursor"), {QKeySequence("F9")},
        [this] {
          if (const auto* view = qobject_cast<SourceView*>(sources_->currentWidget()))
            debugger_.toggleBreakpoint(view->cursorLine());
+       });
+  make("breakpoint-if", tr("Breakpoint &with a condition..."),
+       tr("Stop at the cursor only where an expression of the picked thread is true"),
+       {QKeySequence("Ctrl+F9")}, [this] {
+         if (const auto* view = qobject_cast<SourceView*>(sources_->currentWidget()))
+           sources_->editBreakpoint(view->cursorLine());
+       });
+  make("to-cursor", tr("&Run to the cursor"), tr("To the line of the cursor"), {QKeySequence("Ctrl+F10")},
+       [this] {
+         if (const auto* view = qobject_cast<SourceView*>(sources_->currentWidget()))
+           debugger_.toLine(view->cursorLine());
        });
 }
 
@@ -105,10 +116,11 @@ void MainWindow::makeMenus() {
   auto* quit = program->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setMenuRole(QAction::QuitRole);
   menu(tr("&Step"), {"run", "over", "into", "out", "", "run-back", "back", "back-into", "back-out", "",
-                     "next-iteration", "leave-loop", "restart", "", "breakpoint"});
+                     "next-iteration", "leave-loop", "to-cursor", "restart", "", "breakpoint", "breakpoint-if"});
   QMenu* view = menuBar()->addMenu(tr("&View"));
   for (QDockWidget* dock : docks_) view->addAction(dock->toggleViewAction());
   view->addSeparator();
+  makeGoTo(*view->addMenu(tr("&Go to")));
   view->addAction(tr("&Reset the layout"), this, &MainWindow::resetLayout);
   QMenu* colors = view->addMenu(tr("&Colours"));
   auto* group = new QActionGroup(this);
@@ -118,6 +130,41 @@ void MainWindow::makeMenus() {
     action->setCheckable(true);
     action->setChecked(QSettings().value("theme").toInt() == i);
     group->addAction(action);
+  }
+}
+
+// Every panel has a key.
+void MainWindow::makeGoTo(QMenu& menu) {
+  menu.addAction(tr("&Source"), QKeySequence("Ctrl+0"), this, [this] {
+    if (sources_->currentWidget() != nullptr) sources_->currentWidget()->setFocus(Qt::ShortcutFocusReason);
+  });
+  int number = 0;
+  for (const char* name : {"frames", "stack", "picture", "variables", "run", "threads", "loops", "cost", "calls", "state"}) {
+    QDockWidget* const dock = docks_.value(name);
+    const QKeySequence key(++number < 10 ? QString("Ctrl+%1").arg(number) : QString("Ctrl+Shift+0"));
+    QAction* action = menu.addAction(dock->windowTitle(), key, this, [dock] {
+      dock->show();
+      dock->raise();
+      QWidget* first = dock->widget();
+      while (first != nullptr && (first->focusPolicy() & Qt::TabFocus) == 0) {
+        first = first->nextInFocusChain();
+        if (!dock->isAncestorOf(first)) return;
+      }
+      first->setFocus(Qt::ShortcutFocusReason);
+    });
+    actions_[QString("go-") + name] = action;
+  }
+}
+
+// A dock among tabs has its title on the tab: it is not said twice.
+void MainWindow::tidyTitles() {
+  if (QApplication::mouseButtons() != Qt::NoButton) return titles_later_.start();  // while one is dragged
+  for (QDockWidget* dock : docks_) {
+    const bool on_tab = !dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty();
+    if (on_tab == (dock->titleBarWidget() != nullptr)) continue;
+    QWidget* const before = dock->titleBarWidget();
+    dock->setTitleBarWidget(on_tab ? new QWidget(dock) : nullptr);
+    delete before;
   }
 }
 
@@ -145,8 +192,15 @@ void MainWindow::makeDocks() {
     made->setWidget(panel);
     addDockWidget(area, made);
     docks_[name] = made;
+    for (const auto signal : {&QDockWidget::visibilityChanged, &QDockWidget::topLevelChanged})
+      connect(made, signal, this, [this] { titles_later_.start(); });
+    connect(made, &QDockWidget::dockLocationChanged, this, [this] { titles_later_.start(); });
     return made;
   };
+  constexpr int kSoonMs = 50;
+  titles_later_.setSingleShot(true);
+  titles_later_.setInterval(kSoonMs);
+  connect(&titles_later_, &QTimer::timeout, this, &MainWindow::tidyTitles);
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   QDockWidget* frames = dock("frames", tr("Frames"), new FramePanel(debugger_), Qt::LeftDockWidgetArea);
   QDockWidget* stack = dock("stack", tr("Calls and loops"), stack_, Qt::LeftDockWidgetArea);
@@ -168,6 +222,7 @@ void MainWindow::makeDocks() {
     last = made;
   }
   run->raise();
+  tidyTitles();
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
   resizeDocks({frames, picture}, {220, 450}, Qt::Horizontal);
   resizeDocks({frames, stack}, {300, 170}, Qt::Vertical);
@@ -211,7 +266,7 @@ void MainWindow::refreshActions() {
   actions_["save"]->setEnabled(!debugger_.spec().command.isEmpty());
   const bool can_step = debugger_.canStep();
   const bool on_way = can_step && !debugger_.place()->ended;
-  for (const char* name : {"over", "into", "out", "run"}) actions_[name]->setEnabled(on_way);
+  for (const char* name : {"over", "into", "out", "run", "to-cursor"}) actions_[name]->setEnabled(on_way);
   actions_["restart"]->setEnabled(can_step);
   const bool in_loop = on_way && !debugger_.place()->loops.empty();
   for (const char* name : {"next-iteration", "leave-loop"}) actions_[name]->setEnabled(in_loop);

@@ -113,7 +113,7 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   head->addWidget(search_, 1);
   search_->setPlaceholderText(tr("Search the log"));
 
-  arguments_->setHeaderLabels({tr("Argument"), tr("Value (double-click to change)")});
+  arguments_->setHeaderLabels({tr("Argument"), tr("Value (double-click or Enter to change)")});
   arguments_->setRootIsDecorated(false);
   arguments_->setColumnWidth(0, 110);
   filter_.setSourceModel(&model_);
@@ -122,6 +122,7 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   table_->setModel(&filter_);
   table_->setShowGrid(false);
   table_->setWordWrap(false);
+  table_->setTabKeyNavigation(false);  // Tab leads on
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
@@ -144,6 +145,7 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   counts_->verticalHeader()->setDefaultSectionSize(counts_->fontMetrics().height() + 6);
   counts_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   counts_->setAlternatingRowColors(true);
+  counts_->setTabKeyNavigation(false);
   counts_->setSortingEnabled(true);
   counts_->setAccessibleName(tr("How often what is called"));
   columns->addWidget(tabs, 3);
@@ -157,7 +159,7 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   connect(skip_, &QPushButton::clicked, &debugger_, &Debugger::skipCall);
   connect(log_, &QCheckBox::toggled, &debugger_, &Debugger::logCalls);
   connect(search_, &QLineEdit::textChanged, &filter_, &QSortFilterProxyModel::setFilterFixedString);
-  connect(arguments_, &QTreeWidget::itemDoubleClicked, this, [this](QTreeWidgetItem* item) {
+  connect(arguments_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* item) {
     if (skip_->isEnabled()) arguments_->editItem(item, 1);
   });
   connect(arguments_, &QTreeWidget::itemChanged, this,

@@ -2,8 +2,8 @@
 
 #include <QHeaderView>
 #include <QMenu>
-#include <QVBoxLayout>
 
+#include "debugger-gui/panels/page.h"
 #include "debugger-gui/style/icons.h"
 
 namespace shadestep::gui {
@@ -30,19 +30,11 @@ FramePanel::FramePanel(Debugger& debugger, QWidget* parent)
   for (const auto& [column, width] : {std::pair{0, 92}, {1, 108}, {2, 92}, {3, 58}})
     tree_->setColumnWidth(column, width);
   tree_->setAccessibleName(tr("Frames and draws"));
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(6, 0, 6, 0);
-  head->addWidget(search_);
-  head->addWidget(thumbnails_);
+  layOutPage(*this, {search_, thumbnails_}, tree_);
   thumbnails_->setIcon(icon("pictures"));
   thumbnails_->setAutoRaise(true);
   thumbnails_->setToolTip(tr("List all draws of this frame with what each leaves in its target"));
   connect(thumbnails_, &QToolButton::clicked, this, [this] { debugger_.listFrame(true); });
-  column->addLayout(head);
-  column->addWidget(tree_);
 
   connect(search_, &QLineEdit::textChanged, &filter_, &QSortFilterProxyModel::setFilterFixedString);
   connect(tree_, &QTreeView::activated, this, [this](const QModelIndex& index) {

@@ -17,6 +17,7 @@ class SourceTabs : public QTabWidget {
   SourceView* here() const;  // where the threads stand; null before there is a shader
   void showLine(int line);   // of the stage that is looked at
   void applyTheme();
+  void editBreakpoint(int line);  // asks for its condition
 
  private:
   // Number 0 is the shader's own text, the others are included strings in their order.
@@ -28,7 +29,6 @@ class SourceTabs : public QTabWidget {
   void refreshCosts();
   void refreshBreakpoints();
   SourceView* makeView();
-  void editBreakpoint(int line);
   QString describe(const QString& expression) const;
   SourceView* viewOf(int line) const;
 

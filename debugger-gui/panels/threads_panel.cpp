@@ -54,6 +54,7 @@ QWidget* ThreadsPanel::makeTable() {
   table_->sortByColumn(-1, Qt::AscendingOrder);
   table_->setShowGrid(false);
   table_->setWordWrap(false);
+  table_->setTabKeyNavigation(false);  // Tab leads on
   table_->setAlternatingRowColors(true);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->verticalHeader()->hide();
@@ -124,10 +125,11 @@ QWidget* ThreadsPanel::makeTree() {
   layOutPage(*page, {read, emitting_only_}, tree_);
   connect(read, &QPushButton::clicked, &debugger_, &Debugger::askEmits);
   connect(emitting_only_, &QCheckBox::toggled, this, &ThreadsPanel::refreshMade);
-  connect(tree_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
-    const session::ThreadName run = made_.runAt(index);
-    if (!run.empty() && debugger_.stage() == session::Stage::geometry) debugger_.pick(run);
-  });
+  for (const auto signal : {&QTreeView::activated, &QTreeView::clicked})
+    connect(tree_, signal, this, [this](const QModelIndex& index) {
+      const session::ThreadName run = made_.runAt(index);
+      if (!run.empty() && debugger_.stage() == session::Stage::geometry) debugger_.pick(run);
+    });
   return page;
 }
 
