@@ -26,7 +26,7 @@ std::vector<Sample> planSamples(const CostMap& covered, std::size_t affordable) 
   std::mt19937 random(1);
   std::vector<Sample> plan;
   if (pixels.size() <= affordable) {
-    for (const std::size_t pixel : pixels) plan.push_back({pixel, false});
+    for (const std::size_t pixel : pixels) plan.push_back({pixel, true});
   } else {
     const std::size_t scattered = scatteredOf(affordable);
     const auto on_grid = static_cast<double>(std::max<std::size_t>(1, affordable - scattered));

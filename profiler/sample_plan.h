@@ -19,8 +19,8 @@ struct Sample {
 // could hide, and a pixel of the grid is further from the next than others are.
 std::size_t scatteredOf(std::size_t samples);
 
-// At most about `affordable` of the pixels that are not PixelState::none: all of them if that is enough (no
-// judges), else a regular grid over them and, apart from it, some anywhere, all judges. In an order in
+// At most about `affordable` of the pixels that are not PixelState::none: all of them if that is
+// enough, else a regular grid over them and, apart from it, some anywhere; all are judges. In an order in
 // which every beginning is spread over the whole picture, so that measuring may stop at any time. The same
 // for the same input.
 std::vector<Sample> planSamples(const CostMap& covered, std::size_t affordable);

@@ -93,12 +93,13 @@ TEST(DetectGrain, forgives_single_readings_and_pixels_without_threads) {
   EXPECT_EQ(detectGrain(map, ticks), (Grain{4, 2}));
 }
 
-// In each pixel another two of six passes were interrupted.
-TEST(CombinePasses, does_not_see_what_disturbs_a_third_of_the_passes) {
+// In each pixel another three of six passes were interrupted.
+TEST(CombinePasses, does_not_see_what_disturbs_half_of_the_passes) {
   std::vector<std::vector<double>> passes(6, std::vector<double>(600, 1000));
   for (std::size_t i = 0; i < 600; ++i) {
     passes[i % 6][i] = 1700;
-    passes[(i + 2 + i / 6 % 3) % 6][i] = 3000;
+    passes[(i + 1) % 6][i] = 1200;
+    passes[(i + 2 + i / 6 % 4) % 6][i] = 3000;
   }
   for (const double cost : combinePasses(passes).cost) EXPECT_EQ(cost, 1000);
 }

@@ -129,10 +129,11 @@ class Measured : public Measurable {
 };
 
 // The promise of --error, and what it is worth: of 120 fields the true error, against all pixels, is below
-// what was asked in at least 95 of 100.
+// what was asked in at least 95 of 100, and below the bound that is stated in at least 90.
 TEST(MeasureInRounds, reaches_the_error_that_was_asked_for) {
   constexpr unsigned kFields = 120;
   unsigned kept = 0;
+  unsigned bounded = 0;
   for (unsigned seed = 0; seed < kFields; ++seed) {
     const Field field(seed, false);
     const double asked = std::array{0.03, 0.05, 0.1}[seed % 3];
@@ -140,8 +141,10 @@ TEST(MeasureInRounds, reaches_the_error_that_was_asked_for) {
     const Estimate result = measureInRounds(measured, field.guide, {asked, {}, 1e9}, {});
     const double error = field.errorOf(result.cost);
     kept += error <= asked ? 1 : 0;
+    bounded += error <= result.quality.error_below ? 1 : 0;
   }
   EXPECT_GE(kept, kFields * 95 / 100);
+  EXPECT_GE(bounded, kFields * 90 / 100);
 }
 
 // Where counts explain the costs, the first few pixels show that, also with the noise of single measurements.
@@ -164,7 +167,7 @@ TEST(MeasureInRounds, measures_all_again_where_their_noise_is_above_the_error) {
   Measured measured(field);
   const Estimate result = measureInRounds(measured, field.guide, {0.02, {}, 1e9}, {});
   EXPECT_GT(measured.repeats(), 20);
-  EXPECT_LT(measured.noise(), 0.021);
+  EXPECT_LT(measured.noise(), 0.025);
   EXPECT_LT(field.errorOf(result.cost), 0.03);
 }
 
