@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "debugger-gui/style/theme.h"
 #include "debugger-gui/views/value_glyphs.h"
@@ -195,7 +196,6 @@ void PictureView::paintEvent(QPaintEvent*) {
   const QRegion around = QRegion(rect()).subtracted(visible.toRect().adjusted(1, 1, -1, -1));
   for (const QRect& part : around) painter.fillRect(part, theme().window);
   if (visible.isEmpty()) return;
-  if (hatched_) paintHatching(painter, visible);
 
   // Only what is seen is scaled; whole pixels, so that they stay squares.
   const QRect pixels =
@@ -203,18 +203,14 @@ void PictureView::paintEvent(QPaintEvent*) {
              visible.width() / scale_, visible.height() / scale_)
           .toAlignedRect()
           .intersected(image_.rect());
-  const QRectF target(whole.left() + pixels.left() * scale_, whole.top() + pixels.top() * scale_,
-                      pixels.width() * scale_, pixels.height() * scale_);
-  painter.setRenderHint(QPainter::SmoothPixmapTransform, scale_ < 1 && !smooth_later_.isActive());
-  painter.drawImage(target, image_, pixels);
-  if (scale_ >= kGridFrom) {
-    painter.setPen(QPen(QColor(128, 128, 128, 70), 1));
-    for (int x = pixels.left(); x <= pixels.right() + 1; ++x)
-      painter.drawLine(QPointF(whole.left() + x * scale_, target.top()),
-                       QPointF(whole.left() + x * scale_, target.bottom()));
-    for (int y = pixels.top(); y <= pixels.bottom() + 1; ++y)
-      painter.drawLine(QPointF(target.left(), whole.top() + y * scale_),
-                       QPointF(target.right(), whole.top() + y * scale_));
+  if (scale_ >= 1 || smooth_later_.isActive()) {  // quick before smooth
+    paintByRows(painter, visible);
+  } else {
+    if (hatched_) painter.fillRect(visible, QBrush(hatchTile()));
+    const QRectF target(whole.left() + pixels.left() * scale_, whole.top() + pixels.top() * scale_,
+                        pixels.width() * scale_, pixels.height() * scale_);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    painter.drawImage(target, image_, pixels);
   }
   if (scale_ >= kValuesFrom) paintValues(painter, pixels);
   painter.setPen(theme().border);
@@ -230,15 +226,61 @@ void PictureView::paintEvent(QPaintEvent*) {
   }
 }
 
-void PictureView::paintHatching(QPainter& painter, const QRectF& where) const {
-  QPixmap hatch(8, 8);
-  hatch.fill(theme().hatch_background);
-  {
-    QPainter lines(&hatch);
-    lines.setPen(QPen(theme().hatch_line, 1.4));
-    for (const int shift : {-8, 0, 8}) lines.drawLine(shift, 8, shift + 8, 0);
+// By hand, row by row: most rows are copies of the one above, and a painter hands each line of the grid to
+// its threads.
+void PictureView::paintByRows(QPainter& painter, const QRectF& visible) {
+  const double ratio = devicePixelRatioF();
+  const double scale = scale_ * ratio;
+  const QRect area = QRectF(visible.topLeft() * ratio, visible.size() * ratio).toAlignedRect();
+  const bool grid = scale_ >= kGridFrom;
+  if (seen_.size() != area.size()) seen_ = QImage(area.size(), QImage::Format_RGB32);
+  seen_.setDevicePixelRatio(ratio);
+  const QImage hatch = hatched_ ? hatchTile() : QImage();
+  const auto sourceOf = [scale](double at, double origin, int size) {
+    return std::clamp(static_cast<int>(std::floor((at + 0.5 - origin) / scale)), 0, size - 1);
+  };
+  std::vector<int> columns;
+  for (int x = 0; x < area.width(); ++x)
+    columns.push_back(sourceOf(area.left() + x, origin_.x() * ratio, image_.width()));
+  const auto lined = [](QRgb color) {
+    constexpr int kLine = 128, kShare = 70;  // of 255
+    const auto mix = [](int c) { return c + (kLine - c) * kShare / 255; };
+    return qRgb(mix(qRed(color)), mix(qGreen(color)), mix(qBlue(color)));
+  };
+  int above = sourceOf(area.top(), origin_.y() * ratio, image_.height());
+  bool same = false;  // is this row the one above once more?
+  for (int y = 0; y < area.height(); ++y) {
+    const int row = sourceOf(area.top() + y, origin_.y() * ratio, image_.height());
+    const bool line = grid && row != above;
+    auto* const to = reinterpret_cast<QRgb*>(seen_.scanLine(y));
+    same = !hatched_ && !line && row == above && same;
+    if (same) {
+      std::copy_n(reinterpret_cast<const QRgb*>(seen_.constScanLine(y - 1)), columns.size(), to);
+    } else {
+      const auto* const from = reinterpret_cast<const QRgb*>(image_.constScanLine(row));
+      const auto* const stripe =
+          hatched_ ? reinterpret_cast<const QRgb*>(hatch.constScanLine(y % hatch.height())) : nullptr;
+      for (std::size_t x = 0; x < columns.size(); ++x) {
+        QRgb color = from[columns[x]];
+        if (stripe != nullptr && qAlpha(color) == 0)
+          color = stripe[x % static_cast<std::size_t>(hatch.width())];
+        const bool beside = grid && x > 0 && columns[x] != columns[x - 1];
+        to[x] = line || beside ? lined(color) : color;
+      }
+      same = !line;
+    }
+    above = row;
   }
-  painter.fillRect(where, QBrush(hatch));
+  painter.drawImage(QPointF(area.topLeft()) / ratio, seen_);
+}
+
+QImage PictureView::hatchTile() {
+  QImage tile(8, 8, QImage::Format_RGB32);
+  tile.fill(theme().hatch_background);
+  QPainter lines(&tile);
+  lines.setPen(QPen(theme().hatch_line, 1.4));
+  for (const int shift : {-8, 0, 8}) lines.drawLine(shift, 8, shift + 8, 0);
+  return tile;
 }
 
 void PictureView::paintValues(QPainter& painter, const QRect& pixels) {

@@ -65,7 +65,8 @@ class PictureView : public QWidget {
   void findRange();
   void render();
   void zoomAround(const QPointF& position, double factor);
-  void paintHatching(QPainter&, const QRectF& where) const;
+  void paintByRows(QPainter&, const QRectF& visible);
+  static QImage hatchTile();
   void paintValues(QPainter&, const QRect& pixels);
   bool inside(const QPoint& pixel) const;
   QRectF frame() const;  // of the whole picture on the widget
@@ -73,6 +74,7 @@ class PictureView : public QWidget {
   PicturePtr picture_;
   Mapping mapping_;
   QImage image_;
+  QImage seen_;  // the part of it that is seen, as large as that
   double scale_ = 1;
   QString nothing_;
   QPointF origin_;  // of the picture's upper left corner on the widget
