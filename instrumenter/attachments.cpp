@@ -18,6 +18,12 @@ namespace {
 
 constexpr int kWidestListed = 1024;  // words of a thread in a list
 
+Type typeOf(frontend::Basic basic) {
+  Type type;
+  type.basic = basic;
+  return type;
+}
+
 bool hasBitEncoding(const frontend::Shader& shader, const Target& target) {
   return (isEs(shader) ? shader.version >= 300 : shader.version >= 330) || target.bit_encoding;
 }
@@ -80,10 +86,8 @@ void Attachments::chooseFeedbackOrList(const Target& target) {
              : ".");
   }
   for (const Identity& one : identityOf(shader, target)) {
-    Type number;
-    number.basic = one.basic;
     if (!one.extension.empty()) draft_.require(one.extension);
-    if (add(one.name, number)) identity_.push_back(one.expression);
+    if (add(one.name, typeOf(one.basic))) identity_.push_back(one.expression);
   }
   layout_.identity.swap(layout_.fields);
   first_word_ = layout_.words;
@@ -116,6 +120,7 @@ void Attachments::declare() {
   layout_.words = std::max(layout_.words, widest_);
   const std::string type = draft_.highp() + (floats() ? "vec4 " : "uvec4 ");
   if (!floats()) prepareWords(draft_);
+  if (hides_constants_) draft_.declare("uniform " + draft_.highp() + "uint " + draft_.name("zero") + ";");
   if (floats() && draft_.shader().version < 130) draft_.declare(draft_.adapt(helpers::k_attachment_halves));
 
   for (int i = 0; i < layout_.attachments(); ++i) {
@@ -165,7 +170,15 @@ std::vector<std::string> Attachments::markAndIdentity(std::uint32_t mark) const 
 }
 
 std::vector<std::string> Attachments::valueWords(const std::string& value, const Type& type) const {
-  return floats() ? floatChannels(draft_, value, type) : uintWords(draft_, value, type);
+  if (floats()) return floatChannels(draft_, value, type);
+  std::vector<std::string> words = uintWords(draft_, value, type);
+  if (!hides_constants_) return words;
+  std::size_t word = 0;
+  for (const frontend::Component& component : frontend::components(type)) {
+    if (component.basic == frontend::Basic::float_) words[word] += " ^ " + draft_.name("zero");
+    word += static_cast<std::size_t>(frontend::wordCount(typeOf(component.basic)));
+  }
+  return words;
 }
 
 // A geometry shader that hands its words to transform feedback emits one point, and none of its own vertices.

@@ -28,6 +28,12 @@ class Attachments {
 
   // Makes room for a value; false if `place` does not hold it.
   bool add(const std::string& name, const frontend::Type& type);
+  // Has the words of floats made of more than constants: floatBitsToUint(a.x) ^ sd_zero, a uniform that is
+  // never set, hence 0, which no compiler knows. Mesa takes a choice between the words of the constants -1.0
+  // and 0.0, as the probes of a window make, for one between these floats, and makes 0.0 of it by negating
+  // 0.0: -0.0. To be called before `declare`. (Single probes do without: at a loop's head Mesa would then
+  // lose the values of threads that have left the loop.)
+  void hideConstants() { hides_constants_ = !floats(); }
   // What values have to fit into, for the user: "the draw buffers that the program leaves free".
   std::string place() const;
   // Ends the fields of one probe and hands out their layout; what is added next goes over the same words.
@@ -81,8 +87,9 @@ class Attachments {
   std::string failure_;
   AttachmentLayout layout_;
   bool frag_data_ = false;
-  bool storage_ = false;               // can a storage block be declared?
-  int capacity_ = 0;                   // words
+  bool storage_ = false;  // can a storage block be declared?
+  int capacity_ = 0;      // words
+  bool hides_constants_ = false;
   std::vector<std::string> identity_;  // GLSL expressions
   int widest_ = 1;                     // of the overlays so far
   int first_word_ = 1;                 // behind the mark and the identity

@@ -75,6 +75,7 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
   Conditions conditions(draft);
 
   // In the same order as for a single probe.
+  attachments.hideConstants();
   attachments.declare();
   attachments.frame("  " + attachments.clear(kLaunched, nothing(draft, attachments)) + ";\n", "");
   std::vector<CallPaths::Path> wanted;
@@ -92,7 +93,8 @@ Result<WindowShader> instrumentWindow(const Shader& shader, const std::vector<Pr
     const Probe& probe = probes[i];
     std::vector<std::string> values;
     if (probe.outcome) values.push_back(outcomeText(draft, conditions, probe));
-    for (const frontend::Watch& watch : probe.watches) values.push_back(withoutFragColor(frontend::operandOf(watch)));
+    for (const frontend::Watch& watch : probe.watches)
+      values.push_back(withoutFragColor(frontend::operandOf(watch)));
     const std::vector<std::string> numbers(
         layout.iteration_uniforms.begin(),
         layout.iteration_uniforms.begin() + static_cast<std::ptrdiff_t>(probe.iterations.size()));

@@ -127,5 +127,30 @@ TEST_F(Plans, FollowAPixelToTheSameOutputs) {
   EXPECT_EQ(debug({"--pixel", "6,2", "--plan", "window"}).status, 2);
 }
 
+// Where the constants -1.0 and 0.0 take turns, Mesa makes 0.0 of a choice between them by negating: -0.0.
+TEST(Zero, HasNoSignByAnyPlan) {
+  for (const char* head : {"#version 330\nout vec4 color;\n", "#version 120\n#define color gl_FragColor\n"}) {
+    const Scratch scratch;
+    std::ofstream(scratch.file("shader.frag")) << head << "void main() {\n"
+                                               << "  float a = 0.0;\n"
+                                               << "  color = vec4(1.0);\n"
+                                               << "  a = -1.0;\n"
+                                               << "  color.x += a + gl_FragCoord.x;\n"
+                                               << "}\n";
+    for (const char* plan : {"single", "window"}) {
+      for (const auto& [line, value] : {std::pair{"5", "0"}, {"6", "0"}, {"7", "-1"}}) {
+        const Finished run =
+            scratch.shadestep({"debug", "--at", line, "--print", "a", "--plan", plan, "--csv", "values.csv"},
+                              {binary("programs/shader-file"), scratch.file("shader.frag")});
+        ASSERT_EQ(run.status, 0) << run.err;
+        const auto rows = readCsv(scratch.file("values.csv"));
+        ASSERT_EQ(rows.size(), 256U);
+        EXPECT_EQ(rows.front().back(), value) << plan << ", line " << line << " of " << head;
+        EXPECT_EQ(rows.back().back(), value) << plan << ", line " << line << " of " << head;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shadestep::test
