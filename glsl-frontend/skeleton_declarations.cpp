@@ -53,7 +53,11 @@ void Parser::qualifier(Qualifiers& qualifiers) {
   }
   // EXT_shader_framebuffer_fetch: an output that can be read. EXT_gpu_shader4: varying out.
   if (function_ == kNone && is("inout")) out_.analysed_as[current()] = "out";
-  if (is("varying") && (is("in", 1) || is("out", 1))) out_.analysed_as[current()] = "";
+  if (is("varying") && (is("in", 1) || is("out", 1))) {
+    out_.analysed_as[current()] = "";
+  } else if (is("varying") && stage_ == Stage::geometry) {
+    out_.analysed_as[current()] = "out";  // glslang takes it for an input
+  }
   if (is("unsigned") && is("int", 1)) {
     out_.analysed_as[current()] = "";
     out_.analysed_as[tokenAt(at_ + 1)] = "uint";

@@ -160,6 +160,16 @@ TEST(ArraySizes, OfTheFixedFunctionsStateAreThoseOfDrivers) {
   EXPECT_EQ(findVariable(shader, "gl_LightSource")->type.array.front(), 8);
 }
 
+TEST(Varyings, OfGeometryShadersAreOutputs) {
+  const Shader shader = analysed(
+      "#version 150 compatibility\nlayout(triangles) in; layout(points, max_vertices = 1) out;\nvarying "
+      "float v;\n"
+      "void main() { v = 2.0; EmitVertex(); }\n",
+      {}, Stage::geometry);
+  EXPECT_THAT(names(shader, statement(shader, "v = 2.0").changes), ElementsAre("v"));
+  EXPECT_EQ(variable(shader, statement(shader, "v = 2.0").changes.at(0)).storage, Storage::out);
+}
+
 TEST(Versions, AllAreTaken) {
   for (const char* version : {"", "#version 110\n", "#version 120\n", "#version 130\n", "#version 140\n",
                               "#version 150 compatibility\n", "#version 330 compatibility\n",
