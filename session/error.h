@@ -26,6 +26,13 @@ class Error : public std::runtime_error {
   Outcome outcome_;
 };
 
+// Two passes over the same draw see different threads: the driver, a race in the shader, or the debugger
+// itself.
+class Unsteady : public Error {
+ public:
+  explicit Unsteady(const std::string& sentence) : Error(Outcome::failed, sentence) {}
+};
+
 // Session::interrupt() was called: the program stands at a call, and can be run on.
 class Interrupted : public Error {
  public:

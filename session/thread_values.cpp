@@ -160,9 +160,9 @@ struct FieldValues {
 };
 
 [[noreturn]] void disagree() {
-  throw Error(Outcome::failed,
-              "two passes of one probe disagree about which threads got there; "
-              "the draw does not repeat exactly, so its values cannot be trusted");
+  throw Unsteady(
+      "two passes of one probe disagree about which threads got there; "
+      "the draw does not repeat exactly, so its values cannot be trusted");
 }
 
 void requireSameThreads(const std::vector<WatchedValues>& known, const std::vector<WatchedValues>& now) {

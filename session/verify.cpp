@@ -47,6 +47,7 @@ VerifyCounts& VerifyCounts::operator+=(const VerifyCounts& other) {
   value_mismatch += other.value_mismatch;
   state_leaks += other.state_leaks;
   crashes += other.crashes;
+  unsteady += other.unsteady;
   return *this;
 }
 
@@ -144,6 +145,8 @@ const char* kindName(VerifyFailure::Kind kind) {
       return "state";
     case Kind::crash:
       return "crash";
+    case Kind::unsteady:
+      return "unsteady";
   }
   return "?";
 }

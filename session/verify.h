@@ -29,7 +29,7 @@ struct VerifyOptions {
 
 // One thing that was not as it must be, so that a person can look at it again with `shadestep debug`.
 struct VerifyFailure {
-  enum class Kind { compile, output, value, state, crash };
+  enum class Kind { compile, output, value, state, crash, unsteady };
   Kind kind = Kind::value;
   std::optional<Stage> stage;  // nothing: of the whole program
   std::uint64_t frame = 0, draw = 0;
@@ -49,10 +49,11 @@ struct VerifyCounts {
       0;  // values (variables at a place in a thread) that two plans agree or disagree about
   std::uint64_t analysis_failed = 0;  // different shaders that cannot be analysed
   std::uint64_t compile_failed = 0, output_mismatch = 0, value_mismatch = 0, state_leaks = 0, crashes = 0;
+  std::uint64_t unsteady = 0;  // passes over the same draw that see different threads
 
   VerifyCounts& operator+=(const VerifyCounts&);
   bool passed() const {
-    return compile_failed + output_mismatch + value_mismatch + state_leaks + crashes == 0;
+    return compile_failed + output_mismatch + value_mismatch + state_leaks + crashes + unsteady == 0;
   }
 };
 

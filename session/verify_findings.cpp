@@ -5,7 +5,7 @@ namespace shadestep::session {
 void Findings::fail(VerifyFailure::Kind kind, const frontend::Statement* at, const std::string& plan,
                     const std::string& variable, const std::string& detail) {
   std::uint64_t* counter[] = {&counts_.compile_failed, &counts_.output_mismatch, &counts_.value_mismatch,
-                              &counts_.state_leaks, &counts_.crashes};
+                              &counts_.state_leaks,    &counts_.crashes,         &counts_.unsteady};
   ++*counter[static_cast<int>(kind)];
   if (report_.failures.size() >= VerifyReport::kMostFailures) return;
   VerifyFailure failure{

@@ -31,6 +31,8 @@ class Findings {
       return true;
     } catch (const DriverRefusal& refusal) {
       fail(VerifyFailure::Kind::compile, at, plan, "", refusal.log());
+    } catch (const Unsteady& unsteady) {
+      fail(VerifyFailure::Kind::unsteady, at, plan, "", unsteady.what());
     } catch (const Error& error) {
       if (error.outcome() != Outcome::cannot_debug) throw;
       skip(plan + ": " + error.what());

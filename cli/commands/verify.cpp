@@ -44,6 +44,7 @@ Json toJson(const session::VerifyCounts& counts) {
   json["value_mismatch"] = counts.value_mismatch;
   json["state_leaks"] = counts.state_leaks;
   json["crashes"] = counts.crashes;
+  json["unsteady"] = counts.unsteady;
   return json;
 }
 
@@ -76,7 +77,8 @@ void printText(const session::VerifyReport& report, double seconds) {
             << "  passes with other outputs                 " << total.output_mismatch << "\n"
             << "  values that differ between plans          " << total.value_mismatch << "\n"
             << "  state left changed                        " << total.state_leaks << "\n"
-            << "  crashes of the program                    " << total.crashes << "\n";
+            << "  crashes of the program                    " << total.crashes << "\n"
+            << "  passes that see other threads than others " << total.unsteady << "\n";
   for (const auto& [what, count] : report.skipped)
     std::cout << "  skipped " << count << " x (" << session::stageName(what.first) << "): " << what.second
               << "\n";
