@@ -29,17 +29,19 @@ TEST_P(Compute, ShowsEveryInvocation) {
   const auto [draw, width, height] = GetParam();
   const Scratch scratch;
   for (const char* plan : {"single", "window"}) {
-    const Finished run = scratch.shadestep(
-        {"debug", "--draw", std::to_string(draw), "--stage", "compute", "--at", "21", "--print",
-         "sum,index,brought[3]", "--csv", "values.csv", "--plan", plan, "--json", "--continue"},
-        {binary(kProgram)});
+    const Finished run =
+        scratch.shadestep({"debug", "--draw", std::to_string(draw), "--stage", "compute", "--at", "21",
+                           "--print", "sum,index,brought[3],sum * 2 - int(index)", "--csv", "values.csv",
+                           "--plan", plan, "--json", "--continue"},
+                          {binary(kProgram)});
     ASSERT_EQ(run.status, 0) << run.err;
     std::vector<std::vector<std::string>> expected;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         expected.push_back({std::to_string(x), std::to_string(y), "0", std::to_string(sumOfGroup(x, y)),
                             std::to_string(x % 4 + 4 * (y % 2)),
-                            std::to_string(brought(x / 4 * 4 + 3, y / 2 * 2))});
+                            std::to_string(brought(x / 4 * 4 + 3, y / 2 * 2)),
+                            std::to_string(sumOfGroup(x, y) * 2 - (x % 4 + 4 * (y % 2)))});
       }
     }
     EXPECT_EQ(readCsv(scratch.file("values.csv")), expected) << plan;

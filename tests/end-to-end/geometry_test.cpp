@@ -86,10 +86,10 @@ std::vector<std::string> geometryDraw(int draw, std::vector<std::string> options
 TEST_P(Geometry, ShowsValuesOfEveryRun) {
   const Scratch scratch;
   for (const char* plan : {"single", "window"}) {
-    const Finished run =
-        scratch.shadestep(geometryDraw(0, {"--at", "25", "--print", "id,count,odd,mixed,third,sum", "--csv",
-                                           "values.csv", "--plan", plan, "--json", "--continue"}),
-                          program());
+    const Finished run = scratch.shadestep(
+        geometryDraw(0, {"--at", "25", "--print", "id,count,odd,mixed,third,sum,count * 4 - id", "--csv",
+                         "values.csv", "--plan", plan, "--json", "--continue"}),
+        program());
     ASSERT_EQ(run.status, 0) << run.err;
     const Rows rows = readCsv(scratch.file("values.csv"));
     ASSERT_EQ(rows.size(), kTriangles) << plan;
@@ -104,6 +104,7 @@ TEST_P(Geometry, ShowsValuesOfEveryRun) {
       EXPECT_EQ(row[5], std::to_string(expected.mixed));
       EXPECT_EQ(std::stod(row[6]), expected.third);
       EXPECT_EQ(std::stof(row[7]), expected.sum);
+      EXPECT_EQ(row[8], std::to_string(expected.count() * 4 - id));
     }
     EXPECT_EQ(run.json()["threads"]["launched"], kTriangles);
     EXPECT_EQ(run.json()["check"]["outputs"], expectedCheck());

@@ -43,8 +43,8 @@ TEST(TessControl, ShowsEveryRunAroundItsBarrier) {
   const Scratch scratch;
   for (const char* plan : {"single", "window"}) {
     const Finished run = scratch.shadestep(
-        tessellation("tess-control", {"--at", "20", "--print", "next,own", "--csv", "values.csv", "--plan",
-                                      plan, "--json", "--continue"}),
+        tessellation("tess-control", {"--at", "20", "--print", "next,own,next - own[0] * 2", "--csv",
+                                      "values.csv", "--plan", plan, "--json", "--continue"}),
         {binary(kProgram)});
     ASSERT_EQ(run.status, 0) << run.err;
     Rows expected;
@@ -53,6 +53,7 @@ TEST(TessControl, ShowsEveryRunAroundItsBarrier) {
         expected.push_back(
             {std::to_string(patch), std::to_string(id), std::to_string(own(patch, (id + 1) % 4))});
         for (int i = 0; i < 4; ++i) expected.back().push_back(std::to_string(own(patch, i)));
+        expected.back().push_back(std::to_string(own(patch, (id + 1) % 4) - own(patch, 0) * 2));
       }
     }
     EXPECT_EQ(readCsv(scratch.file("values.csv")), expected) << plan;
@@ -111,10 +112,10 @@ class TessEval : public testing::TestWithParam<std::string> {
 TEST_P(TessEval, ShowsEveryGeneratedVertex) {
   const Scratch scratch;
   for (const char* plan : {"single", "window"}) {
-    const Finished run =
-        scratch.shadestep(tessellation("tess-eval", {"--at", "13", "--print", "value,own[1]", "--csv",
-                                                     "values.csv", "--plan", plan, "--json", "--continue"}),
-                          program());
+    const Finished run = scratch.shadestep(
+        tessellation("tess-eval", {"--at", "13", "--print", "value,own[1],value * 2.0 - total", "--csv",
+                                   "values.csv", "--plan", plan, "--json", "--continue"}),
+        program());
     ASSERT_EQ(run.status, 0) << run.err;
     Rows expected;
     for (int patch = 0; patch < kPatches; ++patch) {
@@ -129,7 +130,10 @@ TEST_P(TessEval, ShowsEveryGeneratedVertex) {
     for (std::vector<std::string>& row : shown) {
       const float u = std::stof(row[1]);
       const float v = std::stof(row[2]);
-      EXPECT_EQ(std::stof(row[3]), value(std::stoi(row[0]), u, v));
+      const int patch = std::stoi(row[0]);
+      EXPECT_EQ(std::stof(row[3]), value(patch, u, v));
+      EXPECT_EQ(std::stof(row[5]), value(patch, u, v) * 2 - total(patch));
+      row.pop_back();
       row[3] = std::to_string(static_cast<int>(std::stof(row[3])));
     }
     EXPECT_EQ(shown, expected) << plan;

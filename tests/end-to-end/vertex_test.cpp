@@ -25,8 +25,13 @@ int sumOf(int vertex) {
   return sum > 100 ? -sum : sum;
 }
 Row rowOf(int vertex, int instance) {
-  return {std::to_string(vertex),      std::to_string(instance),      std::to_string(sumOf(vertex)),
-          std::to_string(key(vertex)), std::to_string(sumOf(vertex)), std::to_string(instance)};
+  return {std::to_string(vertex),
+          std::to_string(instance),
+          std::to_string(sumOf(vertex)),
+          std::to_string(key(vertex)),
+          std::to_string(sumOf(vertex)),
+          std::to_string(instance),
+          std::to_string(key(vertex) * 3 + 1)};
 }
 
 struct Draw {
@@ -49,15 +54,15 @@ TEST_P(VertexDraws, ShowEveryVertexOnce) {
   for (const char* plan : {"single", "window"}) {
     const Finished run = scratch_.shadestep(
         {"debug", "--draw", std::to_string(draw.number), "--stage", "vertex", "--at", "21", "--print",
-         "sum,key,tag", "--csv", "values.csv", "--plan", plan, "--json", "--continue"},
+         "sum,key,tag,key * 3 - -1", "--csv", "values.csv", "--plan", plan, "--json", "--continue"},
         {binary(kProgram)});
     ASSERT_EQ(run.status, 0) << run.err;
     Rows expected;
     for (int instance = 0; instance < draw.instances; ++instance)
       for (const int vertex : draw.vertices) expected.push_back(rowOf(vertex, instance));
     EXPECT_EQ(readCsv(scratch_.file("values.csv")), expected) << plan;
-    EXPECT_EQ(readFile(scratch_.file("values.csv")).substr(0, 38),
-              "vertex,instance,sum,key,tag.x,tag.y\n" + rowOf(draw.vertices[0], 0)[0] + ",");
+    EXPECT_EQ(readFile(scratch_.file("values.csv")).substr(0, 51),
+              "vertex,instance,sum,key,tag.x,tag.y,key * 3 - -1\n" + rowOf(draw.vertices[0], 0)[0] + ",");
     const Json check = run.json()["check"];
     EXPECT_EQ(check["outputs"], "identical");
     EXPECT_GE(check["compared"], 8 * expected.size());  // gl_Position, moved and tag of each
