@@ -7,7 +7,8 @@
 TEST: paths below piglit's directory (tests/spec/..., generated_tests/spec/...), or patterns of such paths; a
 directory stands for all .shader_test files below it: 'tests/spec/glsl-[1-4].[0-9]*' is what every version of GLSL has.
 Default: the fixed list tests/corpus/list-300.txt. --stage vertex|tess-control|tess-eval|geometry|fragment|compute|all says
-which shaders are looked at (default: fragment). Writes results.jsonl (a line a test, with every failure) and
+which shaders are looked at (default: fragment); of tests
+that are given, those that draw or dispatch with such a shader in the file. Writes results.jsonl (a line a test, with every failure) and
 table.md to --out (build/corpus), and prints the table. Exit status: 0 if nothing failed, 1 if something did,
 77 if piglit is not installed.
 """
@@ -20,6 +21,7 @@ import concurrent.futures
 import fnmatch
 import json
 import random
+import re
 import subprocess
 import sys
 import time
@@ -29,7 +31,9 @@ import piglit
 
 FOLDER = Path(__file__).resolve().parent
 REPOSITORY = FOLDER.parent.parent
-FAILURES = ("compile_failed", "output_mismatch", "value_mismatch", "state_leaks", "crashes")
+SECTIONS = {"vertex": "vertex", "tess-control": "tessellation control", "tess-eval": "tessellation evaluation",
+            "geometry": "geometry", "compute": "compute"}
+FAILURES = ("compile_failed", "output_mismatch", "value_mismatch", "state_leaks", "crashes", "unsteady")
 
 
 def check(test: str, root: Path, options: argparse.Namespace) -> dict:
@@ -105,7 +109,7 @@ def table(entries: list[dict]) -> str:
     """A row a directory, as Markdown."""
     header = ["directory", "tests", "driver skips", "draws", "shaders", "analysable", "sites", "values compared",
               "compile failures", "output mismatches", "value mismatches", "state leaks", "crashes",
-              "verdict changed", "the driver's own", "s"]
+              "unsteady", "verdict changed", "the driver's own", "s"]
     rows: dict[str, collections.Counter] = collections.defaultdict(collections.Counter)
     for entry in entries:
         for name in (entry["directory"], "all"):
@@ -122,7 +126,7 @@ def table(entries: list[dict]) -> str:
             row["refused"] += report["analysis_failed"]
             row["sites"] += report["sites"]
             row["values compared"] += report["values_compared"]
-            for column, key in zip(header[8:13], FAILURES):
+            for column, key in zip(header[8:14], FAILURES):
                 excused = entry["undefined"] and key in ("output_mismatch", "value_mismatch")
                 row["the driver's own" if excused else column] += report[key]
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
@@ -176,11 +180,20 @@ def skipped(entries: list[dict]) -> str:
     return "\n".join(["| skipped | reason |", "|---|---|"] + [f"| {n} | {why} |" for why, n in reasons.most_common()]) + "\n"
 
 
+def has_stage(path: Path, stage: str) -> bool:
+    """Whether a test draws or dispatches with a shader of this stage."""
+    text = path.read_text(errors="replace")
+    return all(re.search(line, text, re.MULTILINE)
+               for line in (rf"^\[{SECTIONS[stage]} shader\]", r"^(draw|compute) "))
+
+
 def select(root: Path, options: argparse.Namespace) -> list[str]:
     if options.tests:
         found = [path for pattern in options.tests for path in sorted(root.glob(pattern))]
         files = [file for path in found for file in (sorted(path.rglob("*.shader_test")) if path.is_dir() else [path])]
         tests = list(dict.fromkeys(str(file.relative_to(root)) for file in files if file.suffix == ".shader_test"))
+        if options.stage in SECTIONS:
+            tests = [test for test in tests if has_stage(root / test, options.stage)]
     else:
         tests = [line for line in options.list.read_text().split("\n") if line and not line.startswith("#")]
     if options.sample and options.sample < len(tests):
