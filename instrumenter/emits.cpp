@@ -36,11 +36,11 @@ std::string argumentOf(const Shader& shader, TokenIndex open, TokenIndex close) 
 // `points`: nothing of the shader's own is emitted.
 void replaceEmits(Draft& draft, bool points) {
   const Shader& shader = draft.shader();
+  replaceCalls(draft, "EmitVertex", draft.name("emit_vertex"));
+  replaceCalls(draft, "EndPrimitive", draft.name("end_primitive"));
   for (TokenIndex i = 0; i + 1 < static_cast<TokenIndex>(shader.tokens.size()); ++i) {
     if (textAt(shader, i + 1) != "(") continue;
     const std::string& name = textAt(shader, i);
-    if (name == "EmitVertex") draft.edits.replace(i, draft.name("emit_vertex"));
-    if (name == "EndPrimitive") draft.edits.replace(i, draft.name("end_primitive"));
     const bool emits = name == "EmitStreamVertex";
     const TokenIndex close = matchingBracket(shader, i + 1);
     if ((!emits && name != "EndStreamPrimitive") || close == frontend::kNone) continue;
@@ -124,21 +124,14 @@ Result<EmitsShader> instrumentEmits(const Shader& shader, const Target& target) 
 
 EmitLimits emitLimits(const Shader& shader) {
   EmitLimits limits;
-  const auto count = static_cast<TokenIndex>(shader.tokens.size());
-  for (TokenIndex i = 0; i + 1 < count; ++i) {
-    if (textAt(shader, i) != "layout" || textAt(shader, i + 1) != "(") continue;
-    const TokenIndex close = matchingBracket(shader, i + 1);
-    if (close == frontend::kNone || close + 1 >= count || textAt(shader, close + 1) != "out") continue;
-    for (TokenIndex k = i + 2; k < close; ++k) {
-      const std::string& word = textAt(shader, k);
-      if (word == "points" || word == "line_strip" || word == "triangle_strip") limits.primitive = word;
-      if (word != "max_vertices" || k + 2 >= close) continue;
-      const std::string& number = textAt(shader, k + 2);
-      const bool alone = k + 3 == close || textAt(shader, k + 3) == ",";
-      const bool digits = number.size() < 6 && std::all_of(number.begin(), number.end(),
-                                                           [](char c) { return c >= '0' && c <= '9'; });
-      if (alone && digits && number.front() != '0') limits.max_vertices = std::stoi(number);
-    }
+  for (const LayoutQualifier& one : layoutsOf(shader, "out")) {
+    const std::string& name = textAt(shader, one.name);
+    if (name == "points" || name == "line_strip" || name == "triangle_strip") limits.primitive = name;
+    if (name != "max_vertices" || one.value.first != one.value.last) continue;
+    const std::string& number = textAt(shader, one.value.first);
+    const bool digits = number.size() < 6 && std::all_of(number.begin(), number.end(),
+                                                         [](char c) { return c >= '0' && c <= '9'; });
+    if (digits && number.front() != '0') limits.max_vertices = std::stoi(number);
   }
   return limits;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "instrumenter/origin.h"
+
 namespace shadestep::session {
 namespace {
 
@@ -9,13 +11,9 @@ using instrumenter::Probe;
 
 constexpr std::uint32_t kPatches = 0xE;  // GL_PATCHES
 
-[[noreturn]] void cannotTell(const std::string& reason) {
-  throw Error(Outcome::cannot_debug, "which primitive made which fragment cannot be told: " + reason);
-}
-
-bool has(const DrawFacts& facts, Stage stage) {
-  return std::any_of(facts.stages.begin(), facts.stages.end(),
-                     [stage](const StageFacts& one) { return one.stage == stage; });
+// What draws with adjacency are made of is told by the geometry shader alone, which sees all of its vertices.
+bool isFollowed(std::uint32_t mode, bool geometry) {
+  return mode <= 0x6 || mode == kPatches || (geometry && mode >= 0xA && mode <= 0xC);
 }
 
 frontend::Type integer() {
@@ -34,7 +32,7 @@ Probe startProbe(const frontend::Shader& shader, const std::string& watched) {
 
 // Vertices of a patch of the draw.
 int patchVertices(Session& session) {
-  session.select(has(session.facts(), Stage::tess_control) ? Stage::tess_control : Stage::tess_eval);
+  session.select(hasStage(session, Stage::tess_control) ? Stage::tess_control : Stage::tess_eval);
   session.requireCapturable();
   const ThreadValues threads = valuesAt(session, startProbe(session.shader(), "gl_PatchVerticesIn"));
   for (std::size_t t = 0; t < threads.marks.size(); ++t)
@@ -44,11 +42,18 @@ int patchVertices(Session& session) {
 
 }  // namespace
 
+void cannotTell(const std::string& reason) {
+  throw Error(Outcome::cannot_debug, "which primitive made which fragment cannot be told: " + reason);
+}
+
+bool hasStage(Session& session, Stage stage) {
+  const std::vector<StageFacts>& stages = session.facts().stages;
+  return std::any_of(stages.begin(), stages.end(),
+                     [stage](const StageFacts& one) { return one.stage == stage; });
+}
+
 void requireNumberedPrimitives(Session& session) {
-  const DrawFacts& facts = session.facts();
   const DrawStop& stop = session.stop();
-  if (has(facts, Stage::geometry))
-    cannotTell("the program has a geometry shader; 'shadestep primitives' shows what it makes of each");
   if (!drawsOnce(stop))
     cannotTell("the draw has several instances, or is several draws, whose primitives have the same numbers");
   for (const auto& [name, value] : session.glState()) {
@@ -58,8 +63,29 @@ void requireNumberedPrimitives(Session& session) {
   }
 }
 
+ThreadValues originsOnPixels(Session& session, Stage before, Provoking provoking) {
+  session.select(Stage::fragment);
+  session.requireCapturable();
+  auto instrumented =
+      instrumenter::instrumentOrigin(session.shader(), session.shader(before), session.target());
+  if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) cannotTell(failure->reason);
+  const auto& shaders = std::get<instrumenter::OriginShaders>(instrumented);
+  ExecuteOptions options;
+  options.provoking = provoking;
+  const Captured captured = session.capture(session.prepare(shaders.fragment, before, shaders.before),
+                                            shaders.fragment.layout, options);
+  ThreadValues threads;
+  addPass(threads, captured.threads, captured.layout, captured.execution.check);
+  return threads;
+}
+
 ThreadValues primitivesOnPixels(Session& session) {
   requireNumberedPrimitives(session);
+  if (hasStage(session, Stage::geometry)) {
+    if (hasStage(session, Stage::tess_eval))
+      cannotTell("behind tessellation a geometry shader does not count the draw's primitives");
+    return originsOnPixels(session, Stage::geometry);
+  }
   session.select(Stage::fragment);
   session.requireCapturable();
   const frontend::Shader& shader = session.shader();
@@ -77,8 +103,13 @@ void addPrimitiveCheck(Check& to, const Check& check) {
 // A capture by transform feedback lists the vertices as the draw issues them.
 DrawPrimitives::DrawPrimitives(Session& session) : mode_(session.stop().mode) {
   requireNumberedPrimitives(session);
-  if (mode_ > 0x6 && mode_ != kPatches)
-    cannotTell("only points, lines, triangles and patches are followed to their vertices");
+  const bool geometry = hasStage(session, Stage::geometry);
+  if (geometry && mode_ == kPatches)
+    cannotTell("behind tessellation a geometry shader does not count the draw's primitives");
+  if (!isFollowed(mode_, geometry))
+    cannotTell(
+        "only points, lines, triangles and patches are followed to their vertices, and lists with "
+        "adjacency through a geometry shader");
   if (mode_ == kPatches) patch_ = patchVertices(session);
   session.select(Stage::vertex);
   session.requireCapturable();
@@ -108,6 +139,12 @@ std::size_t DrawPrimitives::count() const {
       case 0x5:  // GL_TRIANGLE_STRIP
       case 0x6:  // GL_TRIANGLE_FAN
         return vertices - 2;
+      case 0xA:  // GL_LINES_ADJACENCY
+        return vertices / 4;
+      case 0xB:  // GL_LINE_STRIP_ADJACENCY
+        return vertices - 3;
+      case 0xC:  // GL_TRIANGLES_ADJACENCY
+        return vertices / 6;
       default:
         return patch_ > 0 ? vertices / patch_ : 0;
     }
@@ -132,11 +169,14 @@ std::vector<int> DrawPrimitives::placesOf(int p) const {
       return {p, p + 1, p + 2};
     case 0x6:
       return {0, p + 1, p + 2};
+    case 0xB:
+      return {p, p + 1, p + 2, p + 3};
     default:
       break;
   }
+  const int each = mode_ == 0xA ? 4 : mode_ == 0xC ? 6 : patch_;
   std::vector<int> places;
-  for (int i = 0; i < patch_; ++i) places.push_back(p * patch_ + i);
+  for (int i = 0; i < each; ++i) places.push_back(p * each + i);
   return places;
 }
 

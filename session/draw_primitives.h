@@ -9,13 +9,25 @@
 
 namespace shadestep::session {
 
-// Throws cannot_debug where gl_PrimitiveID does not tell primitives apart: with a geometry shader, for
-// several instances, for draws that restart their primitives or are several in one.
+// Throws cannot_debug where gl_PrimitiveID does not tell primitives apart: for several instances, for draws
+// that restart their primitives or are several in one.
 void requireNumberedPrimitives(Session&);
 
-// gl_PrimitiveID of every visible fragment: the primitive, or the patch, of the draw; the first of `values`.
-// Selects the fragment stage. Throws as above, and below GLSL 1.50.
+// What the stage before them says of all visible fragments, as instrumenter/origin.h has it; the first of
+// `values`. `before`: the geometry shader, or else the evaluation shader. Selects the fragment stage. Throws
+// cannot_debug.
+ThreadValues originsOnPixels(Session&, Stage before, Provoking = Provoking::keep);
+
+// Of every visible fragment the primitive, or the patch, of the draw: the first word of the first of
+// `values`. Through a geometry shader that value is what originsOnPixels has of it. Selects the fragment
+// stage. Throws cannot_debug where it cannot be told, as above, and below GLSL 1.50.
 ThreadValues primitivesOnPixels(Session&);
+
+// Throws cannot_debug with this reason.
+[[noreturn]] void cannotTell(const std::string& reason);
+
+// Whether the draw's program has the stage.
+bool hasStage(Session&, Stage);
 
 // Adds a check to that of a result. Throws cannot_debug if the outputs differ.
 void addPrimitiveCheck(Check& to, const Check&);
@@ -23,8 +35,9 @@ void addPrimitiveCheck(Check& to, const Check&);
 // The vertices of a draw as it issues them, and which of them its primitives consist of.
 class DrawPrimitives {
  public:
-  // Selects the vertex stage, and an earlier one of patches. Throws cannot_debug where transform feedback
-  // does not capture the vertices in that order, for quads and polygons, and as requireNumberedPrimitives.
+  // Selects the vertex stage, and a later one of patches. Throws cannot_debug where transform feedback
+  // does not capture the vertices in that order, for quads, polygons and strips with adjacency, with both
+  // tessellation and a geometry shader, and as requireNumberedPrimitives.
   explicit DrawPrimitives(Session&);
 
   std::size_t count() const;

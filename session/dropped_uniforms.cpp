@@ -135,7 +135,7 @@ std::string noValue(const Shader& shader, const DrawFacts& facts, VariableId id,
                     const std::string& expression) {
   const Variable& variable = shader.variables[static_cast<std::size_t>(id)];
   if (variable.storage != Storage::uniform) return "";
-  const Parts parts = partsOf(facts.active_uniforms, variable, expression);
+  const Parts parts = partsOf(facts.uniformsOf(shader.stage), variable, expression);
   if (parts.dropped == 0) return "";
   if (parts.alive > 0) return "the driver dropped parts of this uniform, which nothing drawn depends on";
   return "the driver dropped this uniform, because nothing drawn depends on it, and with it what the program "
@@ -177,7 +177,7 @@ std::string droppedUniforms(const Shader& shader, const DrawFacts& facts) {
   for (std::size_t i = 0; i < shader.variables.size(); ++i) {
     const Variable& variable = shader.variables[i];
     if (variable.storage != Storage::uniform || !variable.read || isSubroutine(shader, variable)) continue;
-    const Parts found = partsOf(facts.active_uniforms, variable, variable.name);
+    const Parts found = partsOf(facts.uniformsOf(shader.stage), variable, variable.name);
     if (found.dropped == 0) continue;
     (found.alive == 0 ? whole : parts).push_back(static_cast<VariableId>(i));
   }

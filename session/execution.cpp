@@ -16,8 +16,8 @@ frontend::Type pixelType(std::uint32_t gl_type) {
   return type;
 }
 
-std::unique_ptr<wire::RasterT> raster(const FragmentChoice& choice) {
-  if (!choice.forces()) return nullptr;
+std::unique_ptr<wire::RasterT> raster(const FragmentChoice& choice, Provoking provoking) {
+  if (!choice.forces() && provoking == Provoking::keep) return nullptr;
   const auto as_wire = [](FragmentChoice::Switch value) { return static_cast<wire::Switch>(value); };
   auto raster = std::make_unique<wire::RasterT>();
   raster->alpha_test = as_wire(choice.alpha_test);
@@ -25,6 +25,7 @@ std::unique_ptr<wire::RasterT> raster(const FragmentChoice& choice) {
   raster->stencil_test = as_wire(choice.stencil_test);
   raster->blend = as_wire(choice.blend);
   raster->clear_buffers = choice.clear_buffers;
+  raster->provoking = static_cast<wire::Provoking>(provoking);
   return raster;
 }
 
@@ -114,7 +115,7 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   execute.covering_size = options.covering_size;
   execute.layer = state_->fragments.layer;
   execute.sample = state_->fragments.sample;
-  execute.raster = raster(state_->fragments);
+  execute.raster = raster(state_->fragments, options.provoking);
 
   auto [reply, descriptor] = state_->ask<wire::ExecutedT>(std::move(execute));
   Execution result;

@@ -88,8 +88,23 @@ Prepared Session::send(wire::PrepareT&& prepare) {
 Prepared Session::prepare(const instrumenter::AttachmentShader& instrumented) {
   requireCapturable();
   if (stage() != Stage::fragment) return prepareStages(instrumented.text, instrumented.layout);
+  return sendFragments(instrumented, nullptr);
+}
+
+Prepared Session::prepare(const instrumenter::AttachmentShader& instrumented, Stage beside,
+                          const std::string& text) {
+  requireCapturable();
+  auto other = std::make_unique<wire::StageTextT>();
+  other->stage = static_cast<wire::Stage>(beside);
+  other->text = text;
+  return sendFragments(instrumented, std::move(other));
+}
+
+Prepared Session::sendFragments(const instrumenter::AttachmentShader& instrumented,
+                                std::unique_ptr<wire::StageTextT> beside) {
   auto prepare = preparation(shader(), instrumented.text, instrumented.layout);
   prepare.storage_block = instrumented.layout.discarded_block;
+  prepare.beside = std::move(beside);
   Prepared prepared = send(std::move(prepare));
   prepared.storage = !instrumented.layout.discarded_block.empty();
   return prepared;

@@ -63,6 +63,10 @@ DrawFacts unpack(const wire::DrawT& draw) {
   facts.layers = draw.layers;
   facts.samples = draw.samples;
   for (const auto& uniform : draw.uniforms) facts.active_uniforms[uniform->name] = uniform->size;
+  for (const auto& one : draw.uniforms_elsewhere) {
+    DrawFacts::Uniforms& uniforms = facts.uniforms_elsewhere[static_cast<Stage>(one->stage)];
+    for (const auto& uniform : one->uniforms) uniforms[uniform->name] = uniform->size;
+  }
   facts.replay_reason = draw.replay_reason;
   facts.feedback_components = draw.feedback_components;
   facts.draws_points = draw.draws_points;
@@ -120,6 +124,11 @@ std::optional<Stage> stageByName(const std::string& text) {
     if (text == name) return value;
   }
   return std::nullopt;
+}
+
+const DrawFacts::Uniforms& DrawFacts::uniformsOf(Stage stage) const {
+  const auto elsewhere = uniforms_elsewhere.find(stage);
+  return elsewhere == uniforms_elsewhere.end() ? active_uniforms : elsewhere->second;
 }
 
 bool DrawFacts::has(const std::string& extension) const {

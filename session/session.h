@@ -25,6 +25,7 @@
 
 namespace shadestep::wire {
 struct PrepareT;
+struct StageTextT;
 class SharedMemory;
 }  // namespace shadestep::wire
 
@@ -94,7 +95,10 @@ struct DrawFacts {
   int samples = 0;  // 0 = not multisampled
   // Of the program: name, as glGetActiveUniform tells it, and elements. All others were dropped by the
   // driver, and with them what the program set.
-  std::map<std::string, int> active_uniforms;
+  using Uniforms = std::map<std::string, int>;
+  Uniforms active_uniforms;
+  std::map<Stage, Uniforms> uniforms_elsewhere;  // of stages that a pipeline takes from other programs
+  const Uniforms& uniformsOf(Stage) const;
   std::string replay_reason;    // why stages before rasterization cannot be replayed; empty if they can
   int feedback_components = 0;  // that transform feedback captures of a vertex; 0 = there is none
   bool draws_points = false;    // the call can be replayed as points
@@ -147,6 +151,9 @@ class Prepared {
   std::uint32_t handle_ = 0;
 };
 
+// Which vertex of a primitive its flat outputs come from; in the uninstrumented draw of the check, too.
+enum class Provoking { keep, first, last };
+
 struct ExecuteOptions {
   std::vector<Uniform> uniforms;
   std::vector<std::uint32_t> storage;  // first words of the storage buffer
@@ -158,6 +165,7 @@ struct ExecuteOptions {
   int covering_size = 64;  // with a Covering program
   // Not in replays of fragments: every repeat draws once per set, with these uniforms beside `uniforms`.
   std::vector<std::vector<Uniform>> sets;
+  Provoking provoking = Provoking::keep;  // of fragment shaders; the driver has to let choose (OpenGL 3.2)
 };
 
 // One colour buffer after the draw, in the type that it holds: float, int or uint.
@@ -298,6 +306,8 @@ class Session {
   // target has no such layer or sample, cannot_debug if its context has no such test.
   void choose(const FragmentChoice&);
   Prepared prepare(const instrumenter::AttachmentShader&);
+  // Of a fragment shader, with another text of an earlier stage beside it.
+  Prepared prepare(const instrumenter::AttachmentShader&, Stage beside, const std::string& text);
   Prepared prepare(const instrumenter::RecordingShader&);
   Prepared prepareOriginal();                     // the program's own text
   Prepared prepareText(const std::string& text);  // another text with the same outputs, without captures
@@ -332,6 +342,7 @@ class Session {
 
  private:
   Prepared send(wire::PrepareT&&);
+  Prepared sendFragments(const instrumenter::AttachmentShader&, std::unique_ptr<wire::StageTextT> beside);
   instrumenter::DiscardedThreads executeWithList(const Prepared&, ExecuteOptions, Captured&);
   Captured captureThreads(const Prepared&, const instrumenter::AttachmentLayout&, const ExecuteOptions&);
   Prepared prepareStages(const std::string& text, const instrumenter::AttachmentLayout&);

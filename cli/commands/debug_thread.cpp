@@ -274,12 +274,19 @@ int debugOrigin(session::Session& session, const Common& common, const DebugOpti
     Json document;
     document["fragment"] = {
         {"x", pixel[0]}, {"y", pixel[1]}, {"primitive", origin.primitive}, {"check", toJson(origin.check)}};
+    if (!origin.emitted.empty()) {
+      document["fragment"]["invocation"] = origin.invocation;
+      document["fragment"]["emitted"] = origin.emitted;
+    }
     document["runs"] = std::move(runs);
     document["fragments"] = toJson(options.fragments);
     print(document);
   } else {
-    std::cout << "the fragment on pixel " << options.pixel << " comes from primitive " << origin.primitive
-              << ": " << origin.threads.size() << (origin.threads.size() == 1 ? " run" : " runs") << "\n\n"
+    std::cout << "the fragment on pixel " << options.pixel << " comes from primitive " << origin.primitive;
+    if (!origin.emitted.empty())
+      std::cout << ", emitted as " << (origin.emitted.size() == 1 ? "vertex " : "vertices ")
+                << joined(origin.emitted) << " of the geometry shader's invocation " << origin.invocation;
+    std::cout << ": " << origin.threads.size() << (origin.threads.size() == 1 ? " run" : " runs") << "\n\n"
               << text;
   }
   return status;

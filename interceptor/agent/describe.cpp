@@ -221,6 +221,12 @@ wire::DrawT describe(const DrawFacts& facts) {
   draw.layers = facts.target.layers;
   draw.samples = facts.target.samples;
   if (facts.program != 0) draw.uniforms = replay::activeUniforms(facts.program);
+  for (const replay::StageProgram& one : facts.stages) {
+    if (one.program == facts.program) continue;
+    draw.uniforms_elsewhere.push_back(std::make_unique<wire::StageUniformsT>());
+    draw.uniforms_elsewhere.back()->stage = stage(one.stage);
+    draw.uniforms_elsewhere.back()->uniforms = replay::activeUniforms(one.program);
+  }
   return draw;
 }
 

@@ -49,7 +49,7 @@ bool spoilsCaptures(const guard::ContextFacts& facts, const replay::ProgramCopy&
 
 bool sameRaster(const wire::RasterT& a, const wire::RasterT& b) {
   return a.alpha_test == b.alpha_test && a.depth_test == b.depth_test && a.stencil_test == b.stencil_test &&
-         a.blend == b.blend && a.clear_buffers == b.clear_buffers;
+         a.blend == b.blend && a.clear_buffers == b.clear_buffers && a.provoking == b.provoking;
 }
 
 std::vector<int> locations(const std::vector<capture::CaptureBuffer>& captures) {
@@ -178,6 +178,7 @@ OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const g
   const capture::DrawTarget& target = facts().target;
   if (Refusal refusal = checkPlane(request); !refusal.text.empty()) return refusal;
   const guard::FragmentTestsGuard tests(context, request.raster.get());
+  const guard::ProvokingVertexGuard provoking(request.raster.get());
   if (shadow_ == nullptr) shadow_ = std::make_unique<capture::Shadow>(context, target);
   setRaster(request.raster.get());
   DrawTraces traces(context, *shadow_, *memory_);

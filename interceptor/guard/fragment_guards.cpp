@@ -151,6 +151,21 @@ void FragmentTestsGuard::force(GLenum capability, wire::Switch to, int indices) 
   to == wire::Switch::On ? guard.enable() : guard.disable();
 }
 
+// ---- the provoking vertex
+// ------------------------------------------------------------------------------------
+
+ProvokingVertexGuard::ProvokingVertexGuard(const wire::RasterT* raster) {
+  const wire::Provoking wanted = raster != nullptr ? raster->provoking : wire::Provoking::Keep;
+  if (wanted == wire::Provoking::Keep || !dispatch::available("glProvokingVertex")) return;
+  before_ = integer(GL_PROVOKING_VERTEX);
+  gl().ProvokingVertex(wanted == wire::Provoking::First ? GL_FIRST_VERTEX_CONVENTION
+                                                        : GL_LAST_VERTEX_CONVENTION);
+}
+
+ProvokingVertexGuard::~ProvokingVertexGuard() {
+  if (before_ != 0) gl().ProvokingVertex(static_cast<GLenum>(before_));
+}
+
 // ---- a plain raster
 // ------------------------------------------------------------------------------------------
 

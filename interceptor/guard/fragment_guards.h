@@ -103,6 +103,19 @@ class FragmentTestsGuard {
   std::deque<CapabilityGuard> capabilities_;
 };
 
+// Which vertex flat outputs come from while it lives. Null: as the program has it, as where the driver does
+// not let choose.
+class ProvokingVertexGuard {
+ public:
+  explicit ProvokingVertexGuard(const wire::RasterT*);
+  ~ProvokingVertexGuard();
+  ProvokingVertexGuard(const ProvokingVertexGuard&) = delete;
+  ProvokingVertexGuard& operator=(const ProvokingVertexGuard&) = delete;
+
+ private:
+  GLint before_ = 0;  // 0: nothing is to be put back
+};
+
 // Everything between a triangle and a plain target: tests, blending, masks, culling, viewports. While it
 // lives a triangle is rasterized whole and written as it is to a target of `width` x `height`.
 class PlainRasterGuard {

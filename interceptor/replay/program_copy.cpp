@@ -181,16 +181,50 @@ int positionAttribute(GLuint program) {
   return -1;
 }
 
-// Stages of a pipeline come from programs of their own: they can be linked into one only if all are from the
-// same.
-Refusal comesFromOneProgram(const Original& original, wire::Stage last) {
-  for (const StageProgram& stage : original.pipeline) {
-    if (runsUpTo(stage.stage, last) && stage.program != original.program)
-      return guard::unsupported(
-          "the stages up to this one come from several programs of a pipeline, which cannot be "
-          "replayed without the stages behind them yet");
-  }
-  return {};
+// Whether the pipeline has the stage from another program.
+bool comesFromElsewhere(const Original& original, GLenum type) {
+  return std::any_of(original.pipeline.begin(), original.pipeline.end(), [&](const StageProgram& stage) {
+    return stage.stage == type && stage.program != original.program;
+  });
+}
+
+// The stages of the original's pipeline that are replayed.
+std::vector<StageProgram> replayedStages(const Original& original, const wire::PrepareT& request) {
+  std::vector<StageProgram> stages = original.pipeline;
+  if (request.geometry != wire::Geometry::Unrasterized) return stages;
+  std::erase_if(stages, [&](const StageProgram& stage) { return !runsUpTo(stage.stage, request.stage); });
+  return stages;
+}
+
+// Whether the copy is a part of a pipeline: always where fragments are drawn, else where the stages that are
+// replayed come from several programs, and cannot be linked into one.
+bool isPartOfPipeline(const Original& original, const wire::PrepareT& request) {
+  if (original.pipeline.empty() || request.geometry == wire::Geometry::Covering) return false;
+  const std::vector<StageProgram> stages = replayedStages(original, request);
+  return request.geometry == wire::Geometry::Replay ||
+         std::any_of(stages.begin(), stages.end(),
+                     [&](const StageProgram& stage) { return stage.program != original.program; });
+}
+
+// Only the copy's own last stage can give outputs to transform feedback.
+Refusal hasLastStage(const Original& original, const wire::PrepareT& request) {
+  if (request.feedback_outputs.empty() && request.feedback_captures.empty()) return {};
+  const StageProgram last = replayedStages(original, request).back();
+  if (last.program == original.program) return {};
+  return {wire::ErrorKind::Link,
+          std::string("the ") + stageWord(last.stage) +
+              " shader, whose outputs are asked for, is in another program of the pipeline"};
+}
+
+// Why the stage beside the requested one cannot be replaced, or nothing.
+Refusal hasStageBeside(const Original& original, GLenum type) {
+  const auto& shaders = original.linked->shaders;
+  const bool linked = std::any_of(shaders.begin(), shaders.end(),
+                                  [type](const calls::LinkedShader& shader) { return shader.type == type; });
+  if (linked && !comesFromElsewhere(original, type)) return {};
+  return guard::unsupported(std::string("the ") + stageWord(type) +
+                            " shader is not in the same program as the fragment shader: the stages of a "
+                            "pipeline are not replaced together yet");
 }
 
 // "#version 320 es", as the shader says it.
@@ -213,8 +247,9 @@ Refusal attachEmptyFragmentStage(const std::string& version, GLuint copy) {
 Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& original,
                            const wire::PrepareT& request, ShaderCache& cache, GLuint copy) {
   const bool unrasterized = request.geometry == wire::Geometry::Unrasterized;
-  if (unrasterized) {
-    if (Refusal refusal = comesFromOneProgram(original, request.stage); !refusal.text.empty()) return refusal;
+  const bool part = unrasterized && isPartOfPipeline(original, request);
+  if (part) {
+    if (Refusal refusal = hasLastStage(original, request); !refusal.text.empty()) return refusal;
   }
   const GLenum replaced = shaderType(request.stage);
   const auto of_stage = [&](const calls::LinkedShader& shader) { return shader.type == replaced; };
@@ -223,6 +258,13 @@ Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& ori
   }
   std::string log;
   std::string version = request.text.empty() ? "" : versionOf(request.text);
+  const GLenum beside = request.beside ? shaderType(request.beside->stage) : GL_NONE;
+  if (beside != GL_NONE) {
+    if (Refusal refusal = hasStageBeside(original, beside); !refusal.text.empty()) return refusal;
+    const OwnShader other{compile(beside, request.beside->text, log)};
+    if (other.name == 0) return doesNotCompile(beside, log);
+    gl().AttachShader(copy, other.name);
+  }
   if (!request.text.empty()) {
     const OwnShader own{compile(replaced, request.text, log)};
     if (own.name == 0) return doesNotCompile(replaced, log);
@@ -230,7 +272,9 @@ Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& ori
   }
   for (const calls::LinkedShader& shader : original.linked->shaders) {
     if (unrasterized && !runsUpTo(shader.type, request.stage)) continue;
+    if (part && comesFromElsewhere(original, shader.type)) continue;
     if (of_stage(shader) && !request.text.empty()) continue;  // the one text stands for all of the stage's
+    if (shader.type == beside) continue;
     if (!shader.source->reason.empty()) {
       return guard::unsupported(std::string("the ") + stageWord(shader.type) +
                                 " shader cannot be rebuilt: " + shader.source->reason);
@@ -241,7 +285,7 @@ Refusal attachReplayStages(const guard::ContextFacts& facts, const Original& ori
     if (same == 0) return doesNotCompile(shader.type, log);
     gl().AttachShader(copy, same);
   }
-  if (unrasterized && facts.es && request.stage != wire::Stage::Compute)
+  if (unrasterized && !part && facts.es && request.stage != wire::Stage::Compute)
     return attachEmptyFragmentStage(version, copy);
   return {};
 }
@@ -298,7 +342,7 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
   if (!attached.text.empty()) return attached;
 
   const bool unrasterized = request.geometry == wire::Geometry::Unrasterized;
-  const bool in_pipeline = !original.pipeline.empty() && request.geometry == wire::Geometry::Replay;
+  const bool in_pipeline = isPartOfPipeline(original, request);
   if (in_pipeline) gl().ProgramParameteri(copy.program, GL_PROGRAM_SEPARABLE, GL_TRUE);
   if (!copy.covering) bindAttributes(original, copy.program);
   if (unrasterized) {
@@ -320,7 +364,8 @@ Refusal build(const guard::ContextFacts& facts, const Original& original, const 
     // While the original is current: its choice is state of the context.
     copy.subroutines = subroutineChoices(facts, original.program, copy.program);
   }
-  if (in_pipeline) copy.pipeline = copyPipeline(original.pipeline, original.program, copy.program);
+  if (in_pipeline)
+    copy.pipeline = copyPipeline(replayedStages(original, request), original.program, copy.program);
   copyUniforms(facts, original.program, copy.program);
   // After the program's own blocks have got their bindings: it takes one that is left.
   if (Refusal failed = placeStorageBlock(facts, original, request.storage_block, copy);

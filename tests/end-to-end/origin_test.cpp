@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,17 +40,25 @@ std::vector<Triangle> trianglesOf(int draw) {
   return triangles;
 }
 
-bool covers(int draw, const Triangle& triangle, const Point& at) {
+bool contains(const std::array<Point, 3>& corners, const Point& at) {
   int sides = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Point a = place(draw, triangle[i]), b = place(draw, triangle[(i + 1) % 3]);
+    const Point a = corners[i], b = corners[(i + 1) % 3];
     sides += (b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x) > 0 ? 1 : -1;
   }
   return sides == 3 || sides == -3;
 }
 
+bool covers(int draw, const Triangle& triangle, const Point& at) {
+  return contains({place(draw, triangle[0]), place(draw, triangle[1]), place(draw, triangle[2])}, at);
+}
+
+Point centre(int x, int y) {
+  return {2 * (x + 0.5) / kSize - 1, 2 * (y + 0.5) / kSize - 1};
+}
+
 std::optional<int> primitiveAt(int draw, int x, int y) {
-  const Point at{2 * (x + 0.5) / kSize - 1, 2 * (y + 0.5) / kSize - 1};
+  const Point at = centre(x, y);
   const std::vector<Triangle> triangles = trianglesOf(draw);
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (covers(draw, triangles[i], at)) return static_cast<int>(i);
@@ -102,6 +111,131 @@ TEST(OriginOf, APatchIsItsVertices) {
     EXPECT_EQ(run.json()["runs"][static_cast<std::size_t>(i)]["thread"]["vertex"], 3 * *patch + i);
 }
 
+Json origin(const Scratch& scratch, int draw, const std::string& stage, int x, int y) {
+  const Finished run = scratch.shadestep({"debug", "--draw", std::to_string(draw), "--stage", stage,
+                                          "--pixel", std::to_string(x) + "," + std::to_string(y), "--json"},
+                                         {binary(kProgram)});
+  EXPECT_EQ(run.status, 0) << run.err;
+  return run.json();
+}
+
+// ---- through the geometry shader of draws 6 and 7
+
+struct Made {
+  int primitive, invocation, first;  // the first of the three vertices, of those that the run emits
+};
+
+std::optional<Made> madeAt(int x, int y) {
+  const double steps[5][2] = {{0, 0}, {0, 0.7}, {0.25, 0}, {0.25, 0.7}, {0.5, 0}};
+  for (int primitive = 0; primitive < 4; ++primitive) {
+    for (int invocation = 0; invocation < 2; ++invocation) {
+      for (int first = 0; first < 3; ++first) {
+        std::array<Point, 3> corners{};
+        for (int i = 0; i < 3; ++i)
+          corners[static_cast<std::size_t>(i)] = {-1 + 0.5 * primitive + steps[first + i][0],
+                                                  invocation - 1 + steps[first + i][1]};
+        if (contains(corners, centre(x, y))) return Made{primitive, invocation, first + 2};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+class ThroughGeometry : public testing::TestWithParam<int> {};
+
+TEST_P(ThroughGeometry, IsTheRunThatEmittedTheTriangle) {
+  const Scratch scratch;
+  for (const auto& [x, y] : {std::pair{3, 5}, {6, 10}, {28, 35}, {44, 41}}) {
+    const std::optional<Made> made = madeAt(x, y);
+    ASSERT_TRUE(made) << x << "," << y;
+    const Json run = origin(scratch, GetParam(), "geometry", x, y);
+    EXPECT_EQ(run["fragment"]["primitive"], made->primitive) << x << "," << y;
+    EXPECT_EQ(run["fragment"]["invocation"], made->invocation) << x << "," << y;
+    EXPECT_EQ(run["fragment"]["emitted"], (Json{made->first, made->first + 1, made->first + 2}))
+        << x << "," << y;
+    EXPECT_EQ(run["fragment"]["check"]["outputs"], "identical");
+    ASSERT_EQ(run["runs"].size(), 1U);
+    EXPECT_EQ(
+        run["runs"][0]["thread"],
+        (Json{{"stage", "geometry"}, {"primitive", made->primitive}, {"invocation", made->invocation}}));
+    const Json vertices = origin(scratch, GetParam(), "vertex", x, y);
+    EXPECT_EQ(vertices["fragment"]["emitted"], run["fragment"]["emitted"]);
+    ASSERT_EQ(vertices["runs"].size(), 4U);
+    for (int i = 0; i < 4; ++i)
+      EXPECT_EQ(vertices["runs"][static_cast<std::size_t>(i)]["thread"]["vertex"],
+                8 + 4 * made->primitive + i);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Draws, ThroughGeometry, testing::Values(6, 7));
+
+// ---- to generated vertices: whatever triangles the driver makes of a patch
+
+struct Generated {
+  int patch;
+  std::vector<Point> at;  // gl_TessCoord
+};
+
+Generated generated(const Json& document) {
+  Generated found{document["fragment"]["primitive"], {}};
+  EXPECT_EQ(document["fragment"]["check"]["outputs"], "identical");
+  for (const Json& run : document["runs"]) {
+    EXPECT_EQ(run["thread"]["stage"], "tess-eval");
+    EXPECT_EQ(run["thread"]["primitive"], found.patch);
+    found.at.push_back({run["thread"]["u"], run["thread"]["v"]});
+  }
+  return found;
+}
+
+double area(const std::array<Point, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
+}
+
+TEST(GeneratedVertices, AreTheCornersOfTheTriangleAroundThePixel) {
+  const Scratch scratch;
+  for (const auto& [x, y] : {std::pair{3, 5}, {6, 40}, {30, 27}, {61, 18}}) {
+    const Generated found = generated(origin(scratch, 8, "tess-eval", x, y));
+    ASSERT_EQ(found.at.size(), 3U);
+    const std::array<Point, 3> corners{found.at[0], found.at[1], found.at[2]};
+    const Point at = centre(x, y);
+    EXPECT_EQ(found.patch, static_cast<int>((at.x + 1) * 2));
+    EXPECT_TRUE(contains(corners, {(at.x + 1) * 2 - found.patch, (at.y + 1) / 2})) << x << "," << y;
+    EXPECT_EQ(area(corners), 0.125) << "half of one of four cells";
+  }
+}
+
+TEST(GeneratedVertices, OfTriangularPatchesLieAroundThePixelToo) {
+  const Scratch scratch;
+  for (const auto& [x, y] : {std::pair{18, 9}, {16, 20}, {34, 12}}) {
+    const std::optional<int> patch = primitiveAt(5, x, y);
+    ASSERT_TRUE(patch);
+    const Generated found = generated(origin(scratch, 5, "tess-eval", x, y));
+    EXPECT_EQ(found.patch, *patch);
+    ASSERT_EQ(found.at.size(), 3U);
+    std::array<Point, 3> corners{};  // as the evaluation shader places them
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double weights[3] = {found.at[i].x, found.at[i].y, 1 - found.at[i].x - found.at[i].y};
+      for (int k = 0; k < 3; ++k) {
+        const Point corner = place(5, 3 * *patch + k);
+        corners[i].x += weights[k] * corner.x;
+        corners[i].y += weights[k] * corner.y;
+      }
+    }
+    EXPECT_TRUE(contains(corners, centre(x, y))) << x << "," << y;
+  }
+}
+
+TEST(GeneratedVertices, OfALineAreItsEnds) {
+  const Scratch scratch;
+  const Generated found = generated(origin(scratch, 9, "tess-eval", 40, 8));
+  EXPECT_EQ(found.patch, 0);
+  ASSERT_EQ(found.at.size(), 2U);
+  EXPECT_EQ(found.at[0].x + found.at[1].x, 1.5) << "from the middle to the right";
+  EXPECT_EQ(found.at[0].y, 0.5);
+  EXPECT_EQ(found.at[1].y, 0.5);
+}
+
 // ---- from a vertex to its pixels
 
 class Touched : public testing::TestWithParam<int> {};
@@ -146,6 +280,24 @@ TEST_P(Touched, PixelsAreThoseOfItsTriangles) {
 
 INSTANTIATE_TEST_SUITE_P(Draws, Touched, testing::Values(0, 1, 2, 5));
 
+TEST(TouchedBy, ThroughAGeometryShader) {
+  const Scratch scratch;
+  const Finished run = scratch.shadestep({"debug", "--draw", "6", "--stage", "vertex", "--vertex", "13",
+                                          "--pixels", "--csv", "pixels.csv", "--json"},
+                                         {binary(kProgram)});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["primitives"], (Json{1}));
+  std::vector<std::vector<std::string>> expected;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const std::optional<Made> made = madeAt(x, y);
+      if (made && made->primitive == 1) expected.push_back({std::to_string(x), std::to_string(y), "1"});
+    }
+  }
+  EXPECT_GT(expected.size(), 100U);
+  EXPECT_EQ(readCsv(scratch.file("pixels.csv")), expected);
+}
+
 TEST(TouchedBy, SaysWhereItIsNotKnown) {
   const Scratch scratch;
   const auto statusOf = [&](std::vector<std::string> options) {
@@ -166,13 +318,13 @@ TEST(OriginOf, SaysWhereItIsNotKnown) {
     return scratch.shadestep({"debug", "--draw", draw, "--stage", stage, "--pixel", pixel}, {binary(program)})
         .status;
   };
-  EXPECT_EQ(statusOf("3", "vertex", "8,8"), 4);  // restarts
-  EXPECT_EQ(statusOf("4", "vertex", "8,8"), 4);  // instances
-  EXPECT_EQ(statusOf("5", "tess-eval", "20,20"), 4);
-  EXPECT_EQ(statusOf("2", "vertex", "1,1"), 3);    // no fragment there
-  EXPECT_EQ(statusOf("0", "vertex", "64,1"), 3);   // outside
-  EXPECT_EQ(statusOf("0", "geometry", "8,8"), 3);  // no such stage
-  EXPECT_EQ(statusOf("0", "geometry", "8,8", "programs/geometry"), 4);
+  EXPECT_EQ(statusOf("3", "vertex", "8,8"), 4);                          // restarts
+  EXPECT_EQ(statusOf("4", "vertex", "8,8"), 4);                          // instances
+  EXPECT_EQ(statusOf("2", "vertex", "1,1"), 3);                          // no fragment there
+  EXPECT_EQ(statusOf("0", "vertex", "64,1"), 3);                         // outside
+  EXPECT_EQ(statusOf("0", "geometry", "8,8"), 3);                        // no such stage
+  EXPECT_EQ(statusOf("3", "vertex", "8,8", "programs/geometry"), 4);     // instances
+  EXPECT_EQ(statusOf("5", "tess-eval", "8,8", "programs/geometry"), 4);  // instances
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // OpenGL 4.5 core: triangles given in every way, so that a fragment's three vertices are not where they seem:
 // a list (draw 0), an indexed strip with a base vertex (1), a fan (2), with restarts (3), two instances (4),
-// patches (5).
+// patches (5), through a geometry shader with two invocations from lines with adjacency (6), the same where
+// the first vertex provokes (7), quads made by patches of four (8), and isolines (9).
 #include "osmesa_program.h"
 
 static const char* const kVertex = R"glsl(#version 450
@@ -35,6 +36,73 @@ void main()
     number = gl_TessCoord.x;
     gl_Position = gl_TessCoord.x * gl_in[0].gl_Position + gl_TessCoord.y * gl_in[1].gl_Position +
                   gl_TessCoord.z * gl_in[2].gl_Position;
+}
+)glsl";
+
+// From points a, b, c, d invocation i makes a strip of three triangles, i rows up, which two vertices begin
+// that make none.
+static const char* const kGeometry = R"glsl(#version 450
+layout(lines_adjacency, invocations = 2) in;
+layout(triangle_strip, max_vertices = 7) out;
+in float number[];
+flat out float number_out;
+void emit(float x, float y)
+{
+    gl_Position = vec4(x, y, 0.0, 1.0);
+    number_out = number[2];
+    EmitVertex();
+}
+void main()
+{
+    float left = -1.0 + 0.5 * float(gl_PrimitiveIDIn), low = float(gl_InvocationID) - 1.0;
+    emit(left, low);
+    emit(left, low);
+    EndPrimitive();
+    emit(left, low);
+    emit(left, low + 0.7);
+    emit(left + 0.25, low);
+    emit(left + 0.25, low + 0.7);
+    emit(left + 0.5, low);
+}
+)glsl";
+
+static const char* const kFlatFragment = R"glsl(#version 450
+flat in float number_out;
+out vec4 colour;
+void main()
+{
+    if (number_out < -1.0)
+        discard;
+    colour = vec4(number_out);
+}
+)glsl";
+
+static const char* const kQuads = R"glsl(#version 450
+layout(quads, equal_spacing) in;
+flat out float number_out;
+void main()
+{
+    number_out = 0.0;
+    gl_Position = vec4(-1.0 + 0.5 * float(gl_PrimitiveID) + 0.5 * gl_TessCoord.x, 2.0 * gl_TessCoord.y - 1.0, 0.0, 1.0);
+}
+)glsl";
+
+static const char* const kIsolines = R"glsl(#version 450
+layout(isolines) in;
+flat out float number_out;
+void main()
+{
+    number_out = 0.0;
+    gl_Position = vec4(2.0 * gl_TessCoord.x - 1.0, -0.99 + 0.5 * gl_TessCoord.y, 0.0, 1.0);
+}
+)glsl";
+
+static const char* const kLevels = R"glsl(#version 450
+layout(vertices = 4) out;
+void main()
+{
+    gl_TessLevelOuter[0] = gl_TessLevelOuter[1] = gl_TessLevelOuter[2] = gl_TessLevelOuter[3] = 2.0;
+    gl_TessLevelInner[0] = gl_TessLevelInner[1] = 2.0;
 }
 )glsl";
 
@@ -81,6 +149,21 @@ int main() {
   glUniform1i(glGetUniformLocation(patches, "kind"), 0);
   glPatchParameteri(GL_PATCH_VERTICES, 3);
   glDrawArrays(GL_PATCHES, 0, 30);
+
+  glUseProgram(linkStages(
+      {{GL_VERTEX_SHADER, kVertex}, {GL_GEOMETRY_SHADER, kGeometry}, {GL_FRAGMENT_SHADER, kFlatFragment}}));
+  glDrawArrays(GL_LINES_ADJACENCY, 8, 16);
+  glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
+  glDrawArrays(GL_LINES_ADJACENCY, 8, 16);
+  glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+  glPatchParameteri(GL_PATCH_VERTICES, 4);
+  for (const char* const evaluation : {kQuads, kIsolines}) {
+    glUseProgram(linkStages({{GL_VERTEX_SHADER, kVertex},
+                             {GL_TESS_CONTROL_SHADER, kLevels},
+                             {GL_TESS_EVALUATION_SHADER, evaluation},
+                             {GL_FRAGMENT_SHADER, kFlatFragment}}));
+    glDrawArrays(GL_PATCHES, 0, evaluation == kQuads ? 16 : 4);
+  }
   glFinish();
   return glGetError() == GL_NO_ERROR ? 0 : 1;
 }
