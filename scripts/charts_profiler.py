@@ -93,7 +93,7 @@ def compare(measured, reference):
     pixels = sorted(measured.costs.keys() & reference.costs.keys())
     a = [measured.costs[i] for i in pixels]
     b = [reference.costs[i] for i in pixels]
-    scale = sum(b) / sum(a)
+    scale = sum(b) / sum(a) if any(a) else 0  # forced settings may show nothing at all
     rmse = math.sqrt(statistics.fmean((scale * x - y) ** 2 for x, y in zip(a, b))) / statistics.fmean(b)
     return rmse, correlation(ranks(a), ranks(b)), sum(a) / sum(b) - 1
 
