@@ -282,9 +282,9 @@ void explain(Profile& profile, const Setup& setup, const Isolation& isolation) {
                             " inputs of neighbours outside of it were continued linearly.");
   if (!setup.cleared)
     profile.notes.push_back(
-        "The shader costs so little that even the largest draw does not clear the timer's uncertainty: the "
-        "costs are "
-        "upper bounds.");
+        "The shader costs so little that no draw of these sizes clears the timer's uncertainty: the costs "
+        "are rough, "
+        "and 0 says no more than that. Larger --fragments or --method count tell more.");
 }
 
 }  // namespace
