@@ -19,15 +19,7 @@ int main(int argc, char** argv) {
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   const int width = argc > 2 ? std::atoi(argv[1]) : largest;
   const int height = argc > 2 ? std::atoi(argv[2]) : largest;
-  GLuint framebuffer = 0;
-  GLuint target = 0;
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glGenRenderbuffers(1, &target);
-  glBindRenderbuffer(GL_RENDERBUFFER, target);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
-  glViewport(0, 0, width, height);
+  drawToRenderbuffer(GL_RGBA8, width, height);
   GLuint vertices = 0;
   glGenVertexArrays(1, &vertices);
   glBindVertexArray(vertices);

@@ -110,6 +110,19 @@ void main()
 }
 )glsl";
 
+// From now on all is drawn to a renderbuffer, as the first colour attachment, and to the whole of it.
+inline void drawToRenderbuffer(GLenum format, int width, int height) {
+  GLuint framebuffer = 0;
+  GLuint target = 0;
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glGenRenderbuffers(1, &target);
+  glBindRenderbuffer(GL_RENDERBUFFER, target);
+  glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
+  glViewport(0, 0, width, height);
+}
+
 // Fills the window with one triangle.
 inline void drawEverywhere() {
   static const float corners[] = {-1, -1, 3, -1, -1, 3};

@@ -55,15 +55,7 @@ int main(int argc, char** argv) {
   const int side = argc > 2 ? std::atoi(argv[2]) : 16;
   if (side < 1) fail("no size:", argv[2]);
   const OsmesaContext context(OsmesaContext::Profile::core);
-  GLuint framebuffer = 0;
-  GLuint target = 0;
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glGenRenderbuffers(1, &target);
-  glBindRenderbuffer(GL_RENDERBUFFER, target);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, side, side);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
-  glViewport(0, 0, side, side);
+  drawToRenderbuffer(GL_RGBA32F, side, side);
   if (argc > 3 && std::string(argv[3]) == "hidden-left") hideLeft(side);
   GLuint vertexArray = 0;
   glGenVertexArrays(1, &vertexArray);

@@ -135,15 +135,7 @@ int main(int argc, char** argv) {
                GL_STATIC_DRAW);
   glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer);
 
-  GLuint framebuffer = 0;
-  GLuint target = 0;
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glGenRenderbuffers(1, &target);
-  glBindRenderbuffer(GL_RENDERBUFFER, target);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, kSide, kSide);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
-  glViewport(0, 0, kSide, kSide);
+  drawToRenderbuffer(GL_RGBA32F, kSide, kSide);
   GLuint vertexArray = 0;
   glGenVertexArrays(1, &vertexArray);
   glBindVertexArray(vertexArray);

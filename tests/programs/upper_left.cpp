@@ -4,14 +4,7 @@
 
 int main() {
   const OsmesaContext context(OsmesaContext::Profile::core);
-  GLuint framebuffer = 0;
-  GLuint target = 0;
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glGenRenderbuffers(1, &target);
-  glBindRenderbuffer(GL_RENDERBUFFER, target);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32I, kSize, kSize);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
+  drawToRenderbuffer(GL_RGBA32I, kSize, kSize);
   const GLenum buffers[] = {GL_NONE, GL_COLOR_ATTACHMENT0};
   glDrawBuffers(2, buffers);
   GLuint vertexArray = 0;
