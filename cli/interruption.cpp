@@ -40,6 +40,7 @@ InterruptibleSession::Restored::~Restored() {
 
 InterruptibleSession::InterruptibleSession(const session::LaunchOptions& options) : session_(options) {
   debugged = &session_;
+  on(Action::end);  // its start may never come to the draw that is waited for
 }
 
 // The session's end may wait for its program, but is no longer there for a handler.

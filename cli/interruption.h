@@ -15,7 +15,7 @@ class InterruptibleSession {
     end,    // kills the program and ends us with status 130
   };
 
-  // Until on() the signal is ignored. Throws as Session does.
+  // Until on() it is `end`. Throws as Session does.
   explicit InterruptibleSession(const session::LaunchOptions&);
   ~InterruptibleSession();
   InterruptibleSession(const InterruptibleSession&) = delete;

@@ -354,5 +354,13 @@ TEST(BreakCommand, CtrlCPausesARunningProgram) {
   EXPECT_EQ(steps[2]["reason"], "next");
 }
 
+// Of a draw that may never come.
+TEST(ProfileCommand, CtrlCEndsWhatIsStillWaitedFor) {
+  const Scratch scratch;
+  const Finished run = scratch.shadestep({"profile", "--frame", "1000000000"},
+                                         {binary("programs/frames"), "0", "interrupt", "5"});
+  EXPECT_EQ(run.status, 130) << run.err;
+}
+
 }  // namespace
 }  // namespace shadestep::test

@@ -1,5 +1,5 @@
-// Draws with a program that was loaded by glProgramBinary: no shader of it was ever compiled in this
-// process's program. Ends with 77 where the driver has no format for binaries.
+// Draws with a program that was loaded by glProgramBinary: it has no shaders, hence no source. Ends with 77
+// where the driver has no format for binaries.
 #include "osmesa_program.h"
 
 static const char* const kFragment = R"glsl(#version 330 core
