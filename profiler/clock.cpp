@@ -11,7 +11,8 @@
 namespace shadestep::profiler {
 namespace {
 
-constexpr int kMostPasses = 200;
+constexpr std::size_t kMostPasses = 200;
+constexpr double kKnownWell = 0.005;  // a spread that needs no more passes than asked for
 
 session::Captured drawOnce(session::Session& session, const session::Prepared& prepared,
                            const instrumenter::AttachmentLayout& layout, bool compare) {
@@ -52,11 +53,23 @@ void requireSameThreads(const session::Captured& captured, const Profile& profil
       "its costs cannot be trusted");
 }
 
-void explain(Profile& profile, const instrumenter::ShaderClock& clock, const Readings& readings) {
+std::vector<std::vector<double>> chosen(const std::vector<std::vector<double>>& passes,
+                                        const std::vector<std::size_t>& which) {
+  std::vector<std::vector<double>> result;
+  for (const std::size_t pass : which) result.push_back(passes[pass]);
+  return result;
+}
+
+void explain(Profile& profile, const instrumenter::ShaderClock& clock, const Readings& readings,
+             std::size_t disturbed) {
   profile.notes.push_back("Ticks of the driver's shader clock (" + clock.extension +
                           ") from the start to the end of each thread, lower quartile of " +
                           std::to_string(profile.passes) +
                           " passes, each scaled to the speed of the median pass.");
+  if (disturbed > 0)
+    profile.notes.push_back(std::to_string(disturbed) + (disturbed == 1 ? " pass was" : " passes were") +
+                            " slower on the whole than the fastest by more than 3% and left out: the machine "
+                            "did something else, too.");
   if (profile.grain == Grain{})
     profile.notes.push_back("No threads were seen to share a clock.");
   else
@@ -110,14 +123,15 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
     profile.interrupted = options.stop && options.stop();
     if (options.progress)
       options.progress(std::min(1.0, static_cast<double>(passes.size()) / static_cast<double>(wanted + 2)));
-    if (passes.size() < wanted && !profile.interrupted) continue;
-    combined = combinePasses(passes);
-    const bool known_well = !options.error || combined.spread <= *options.error;
-    if (known_well || profile.interrupted || passes.size() >= kMostPasses ||
-        stopwatch.seconds() > options.budget)
-      break;
+    const bool pair_complete = passes.size() >= wanted && (passes.size() - wanted) % 2 == 0;
+    if (!pair_complete && !profile.interrupted) continue;
+    const std::vector<std::size_t> undisturbed = undisturbedPasses(passes);
+    combined = combinePasses(chosen(passes, undisturbed));
+    profile.passes = static_cast<int>(undisturbed.size());
+    if (combined.spread <= options.error.value_or(kKnownWell) && undisturbed.size() >= wanted) break;
+    if (profile.interrupted || passes.size() >= (options.error ? kMostPasses : 2 * wanted)) break;
+    if (options.error && stopwatch.seconds() > options.budget) break;
   }
-  profile.passes = static_cast<int>(passes.size());
   profile.spread = combined.spread;
   profile.map.cost = combined.cost;
   profile.uncertainty = combined.uncertainty;
@@ -130,7 +144,7 @@ Profile profileClock(session::Session& session, const ProfileOptions& options) {
     describeLoops(session, profile);
   }
   if (options.progress) options.progress(1);
-  explain(profile, *clock, readings);
+  explain(profile, *clock, readings, passes.size() - static_cast<std::size_t>(profile.passes));
   summarize(profile);
   profile.seconds = stopwatch.seconds();
   return profile;

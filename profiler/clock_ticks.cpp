@@ -104,27 +104,32 @@ double quantileOf(const std::vector<std::vector<double>>& passes, const std::vec
   return quantile(std::move(values), p);
 }
 
-// How much slower than the median pass each was on the whole.
+// Of how often a pixel is disturbed, and of how much of a pass is (whatever the thread of a processor draws
+// while something else runs there): as long as it is less than three quarters.
+constexpr double kCounts = 0.25;
+
+// How much slower each pass was where nothing disturbed it, relative to the lower quartile of all passes.
 std::vector<double> speeds(const std::vector<std::vector<double>>& ticks) {
   const std::size_t pixels = ticks.front().size();
   const std::vector<double> none(ticks.size(), 1.0);
-  std::vector<double> middle(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) middle[i] = quantileOf(ticks, none, i, 0.5);
+  std::vector<double> low(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) low[i] = quantileOf(ticks, none, i, kCounts);
   std::vector<double> scale;
   for (const std::vector<double>& pass : ticks) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < pixels; ++i)
-      if (!std::isnan(pass[i]) && middle[i] > 0) ratios.push_back(pass[i] / middle[i]);
-    scale.push_back(ratios.empty() ? 1 : median(std::move(ratios)));
+      if (!std::isnan(pass[i]) && low[i] > 0) ratios.push_back(pass[i] / low[i]);
+    scale.push_back(ratios.empty() ? 1 : quantile(std::move(ratios), kCounts));
     if (!(scale.back() > 0)) scale.back() = 1;
   }
+  const double middle = median(scale);
+  for (double& s : scale) s /= middle;
   return scale;
 }
 
 }  // namespace
 
 Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
-  constexpr double kCounts = 0.25;  // this quantile
   Passes result;
   const std::size_t pixels = ticks.front().size();
   const std::vector<double> scale = speeds(ticks);
@@ -157,6 +162,19 @@ Passes combinePasses(const std::vector<std::vector<double>>& ticks) {
   return result;
 }
 
+std::vector<std::size_t> undisturbedPasses(const std::vector<std::vector<double>>& ticks) {
+  constexpr double kAsFast = 1.03;
+  const std::vector<double> scale = speeds(ticks);
+  std::vector<double> sorted = scale;
+  std::sort(sorted.begin(), sorted.end());
+  const double limit =
+      std::max(sorted.front() * kAsFast, sorted[std::max<std::size_t>((sorted.size() - 1) / 2, 1)]);
+  std::vector<std::size_t> result;
+  for (std::size_t pass = 0; pass < scale.size(); ++pass)
+    if (scale[pass] <= limit) result.push_back(pass);
+  return result;
+}
+
 ClockTest judgeClock(double once, double twice, double thrice, int steps) {
   ClockTest test;
   test.step = (twice - once) / steps;
@@ -178,7 +196,7 @@ ClockTest testShaderClock(session::Session& session) {
   const session::Prepared prepared = session.prepare(clocked.shader);
   ticksFor(session, prepared, clocked, kWork);  // the driver compiles
   // In turns, so that a slow moment meets all three; the fastest counts.
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 12;
   std::array<double, 3> ticks;
   ticks.fill(std::numeric_limits<double>::infinity());
   ClockTest test;

@@ -2,6 +2,7 @@
 // Internal.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -47,8 +48,8 @@ class TickReader {
 Grain detectGrain(const CostMap&, const std::vector<double>& ticks);
 
 // Passes over the same draw, [pass][pixel], NaN where there is none, made into one: every pass is divided by
-// how much slower than the median pass it was on the whole; of a pixel's passes the lower quartile counts:
-// what disturbs a thread adds, and may meet half of them.
+// how much slower than the median pass it was where nothing disturbed it; of a pixel's passes the lower
+// quartile counts: what disturbs a thread adds, and may meet half of them.
 struct Passes {
   std::vector<double> cost;         // per pixel; 0 where no pass has one
   std::vector<double> uncertainty;  // per pixel: 95% half width
@@ -56,6 +57,11 @@ struct Passes {
   double spread = 0;                // see Profile::spread
 };
 Passes combinePasses(const std::vector<std::vector<double>>& ticks);
+
+// The passes that were within 3% of the fastest one on the whole, in order; at least the fastest half of all
+// (rounded up), and two. Slower ones were disturbed by something else that the machine did. At least two
+// passes must be there.
+std::vector<std::size_t> undisturbedPasses(const std::vector<std::vector<double>>& ticks);
 
 struct ClockTest {
   bool trusted = false;

@@ -33,7 +33,8 @@ const char* methodName(Method);
 
 struct ProfileOptions {
   std::optional<Region> roi;    // nothing else is profiled; parts outside the draw's target are ignored
-  int passes = 6;               // clock: draws; at least 2. With `error`: at least so many
+  int passes = 6;               // clock: draws, at least 2; up to twice as many while they differ. With
+                                // `error`: at least so many
   double budget = 12;           // seconds of measuring (isolate, and clock with `error`); may be infinite
   std::optional<double> error;  // stop once the map is known this well: 0.05 = 5% (isolate: of the
                                 // reconstruction, with 95% confidence; clock: between halves of the passes)

@@ -328,7 +328,10 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
           "seconds to measure (12, or with --error until that is reached); isolate: decides how many pixels")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
-  command->add_option("--passes", options->passes, "clock: draws, of which the lower quartile counts")
+  command
+      ->add_option("--passes", options->passes,
+                   "clock: draws, of which the lower quartile counts; up to twice as many while they do not "
+                   "repeat each other to 0.5%")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -104,6 +104,14 @@ TEST(CombinePasses, does_not_see_what_disturbs_half_of_the_passes) {
   for (const double cost : combinePasses(passes).cost) EXPECT_EQ(cost, 1000);
 }
 
+// Of every second pass all that one of two processors drew took longer; the other one drew a third.
+TEST(CombinePasses, does_not_take_a_disturbed_processor_for_a_slow_pass) {
+  std::vector<std::vector<double>> passes(6, std::vector<double>(600, 1000));
+  for (std::size_t pass = 0; pass < 6; pass += 2)
+    for (std::size_t i = 0; i < 400; ++i) passes[pass][(i + pass * 100) % 600] = 1360;
+  for (const double cost : combinePasses(passes).cost) EXPECT_EQ(cost, 1000);
+}
+
 TEST(CombinePasses, takes_the_speed_of_each_pass_out) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> noise(0.99, 1.01);
@@ -121,6 +129,27 @@ TEST(CombinePasses, takes_the_speed_of_each_pass_out) {
   }
   EXPECT_GT(combined.spread, 0.0005);
   EXPECT_LT(combined.spread, 0.01);
+}
+
+std::vector<std::vector<double>> withSpeeds(const std::vector<double>& speeds) {
+  std::vector<std::vector<double>> passes;
+  for (const double speed : speeds) {
+    std::vector<double>& pass = passes.emplace_back();
+    for (int i = 0; i < 100; ++i) pass.push_back((100 + i) * speed);
+  }
+  return passes;
+}
+
+TEST(UndisturbedPasses, leaves_out_passes_that_were_slow_on_the_whole) {
+  std::vector<std::vector<double>> passes = withSpeeds({1.01, 1.5, 1, 1.02, 1.2, 1.0, 1.04});
+  passes[0][5] = 1e9;  // single threads count for nothing
+  passes[5][6] = kNone;
+  EXPECT_EQ(undisturbedPasses(passes), (std::vector<std::size_t>{0, 2, 3, 5}));
+}
+
+TEST(UndisturbedPasses, keeps_the_faster_half_whatever_happens) {
+  EXPECT_EQ(undisturbedPasses(withSpeeds({2, 1, 1.3, 1.1, 4})), (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(undisturbedPasses(withSpeeds({1, 2})), (std::vector<std::size_t>{0, 1}));
 }
 
 }  // namespace
