@@ -2,11 +2,11 @@
 """Runs piglit's OpenGL tests bare and under shadestep in turn, and compares what they say: every test and every subtest.
 
     scripts/transparency [PATTERN...] [--sample N] [--seed N] [--minutes M] [--every-draw] [--jobs 2] [--out DIR]
-                         [--resume]
+                         [--no-idle] [--resume]
 
 PATTERN: of names as piglit gives them (spec@arb_draw_instanced@*), and for shader tests of their paths
 (tests/spec/glsl-1.30/*). Default: all of tests/spec; --generated: the generated shader tests too. --every-draw also runs each test with one
-capture at every draw. Tests come in an order that --seed chooses, the same share of every directory at any time, so that
+capture at every draw, --no-idle then leaves out the run without captures. Tests come in an order that --seed chooses, the same share of every directory at any time, so that
 --sample and --minutes cut off a fair part. What differs is run again, as often as bare: a test that does not say the same each
 time proves nothing, and is listed as unsteady; one that takes longer than --timeout tells nothing, and is counted apart.
 --resume goes on where a run with the same build, --out and seed was cut off.
@@ -37,6 +37,7 @@ import piglit
 
 REPOSITORY = Path(__file__).resolve().parent.parent.parent
 AGAIN = 2  # more runs of what differs, and of the bare test
+KINDS = {"idle": [], "every draw": ["--every-draw"]}  # options of `shadestep run`
 
 
 def compiled_tests(root: Path) -> dict[str, list[str]]:
@@ -92,6 +93,10 @@ def x_server():
         server.wait()
 
 
+def kinds(options: argparse.Namespace) -> list[str]:
+    return ["idle"] * (not options.no_idle) + ["every draw"] * options.every_draw
+
+
 def verdict(said: dict) -> tuple:
     """What counts of what a test says."""
     return said["result"], said.get("subtest", {})
@@ -103,6 +108,7 @@ class Runner:
         self.environment = os.environ | environment | {"PIGLIT_SOURCE_DIR": str(root)}
         self.seconds = options.timeout
         self.shadestep = str(options.shadestep)
+        self.kinds = kinds(options)
 
     def said(self, command: list[str]) -> dict:
         """What the test says: its result, and those of its subtests."""
@@ -124,11 +130,9 @@ class Runner:
             verdict["result"] = "crash" if process.returncode else "nothing"
         return verdict
 
-    def check(self, name: str, command: list[str], every_draw: bool) -> dict:
+    def check(self, name: str, command: list[str]) -> dict:
         start = time.monotonic()
-        runs = {"bare": command, "idle": [self.shadestep, "run", "--quiet", "--", *command]}
-        if every_draw:
-            runs["every draw"] = [self.shadestep, "run", "--every-draw", "--quiet", "--", *command]
+        runs = {"bare": command} | {kind: [self.shadestep, "run", *KINDS[kind], "--quiet", "--", *command] for kind in self.kinds}
         entry = {"test": name, "directory": directory(name), "command": command}
         entry["said"] = said = {kind: self.said(line) for kind, line in runs.items()}
         late = [kind for kind in runs if said[kind]["result"] == "timeout"]
@@ -146,8 +150,7 @@ class Runner:
         return entry
 
 
-def table(entries: list[dict], every_draw: bool) -> str:
-    kinds = ["idle"] + (["every draw"] if every_draw else [])
+def table(entries: list[dict], kinds: list[str]) -> str:
     header = ["directory", "tests", "skipped by the driver", "unsteady"]
     header += [f"{kind}: {what}" for kind in kinds for what in ("out of time", "differ")]
     rows: dict[str, collections.Counter] = collections.defaultdict(collections.Counter)
@@ -173,6 +176,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, help="begin no test after this time")
     parser.add_argument("--every-draw", action="store_true")
+    parser.add_argument("--no-idle", action="store_true")
     parser.add_argument("--generated", action="store_true")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
@@ -180,6 +184,9 @@ def main() -> int:
     parser.add_argument("--shadestep", type=Path, default=REPOSITORY / "build" / "release" / "bin" / "shadestep")
     parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "transparency")
     options = parser.parse_args()
+
+    if options.no_idle and not options.every_draw:
+        parser.error("--no-idle leaves nothing to run without --every-draw")
 
     root = piglit.root()
     if root is None or shutil.which("Xvfb") is None:
@@ -204,7 +211,7 @@ def main() -> int:
 
         def begin(name: str) -> dict | None:
             late = options.minutes and time.monotonic() - start > 60 * options.minutes
-            return None if late else runner.check(name, tests[name], options.every_draw)
+            return None if late else runner.check(name, tests[name])
 
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             for entry in filter(None, pool.map(begin, names)):
@@ -214,7 +221,7 @@ def main() -> int:
                 if entry["differs"]:
                     said = ", ".join(f"{kind} {entry['said'][kind]['result']}" for kind in ["bare", *entry["differs"]])
                     print(f"{entry['test']}: {said}\n  {' '.join(entry['command'])}", flush=True)
-    text = table(entries, options.every_draw)
+    text = table(entries, kinds(options))
     (options.out / "table.md").write_text(text)
     print(f"{text}\n{len(entries)} of {len(tests)} tests, seed {options.seed}, {time.monotonic() - start:.0f} s")
     return 1 if any(entry["differs"] for entry in entries) else 0
