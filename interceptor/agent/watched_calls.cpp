@@ -58,6 +58,14 @@ struct Wishes {
   wire::BreakT break_at;
   Names told, stopped_at, switches;
   std::uint64_t calls = 0;  // of the current frame
+  int holds = 0;            // of calls::holdWatching
+
+  bool any() const { return tell || stop || calls::status.pause.load(kRelaxed); }
+  void update() const {
+    calls::status.watching.store(any() || holds > 0);
+    // The session may have asked for a pause just before that.
+    if (calls::status.pause.load()) calls::status.watching.store(true);
+  }
 };
 Wishes& wishes() {
   static auto* one = new Wishes;
@@ -123,9 +131,7 @@ void watchCalls(const wire::WatchT* watch, const wire::BreakT* break_at) {
   here.told.set(here.watch.names);
   here.stopped_at.set(here.break_at.names);
   here.switches.set({std::begin(kShaderSwitches), std::end(kShaderSwitches)});
-  calls::status.watching.store(here.tell || here.stop);
-  // The session may have asked for a pause just before that.
-  if (calls::status.pause.load()) calls::status.watching.store(true);
+  here.update();
 }
 
 void endFrameOfCalls() {
@@ -139,6 +145,13 @@ void endFrameOfCalls() {
 
 namespace shadestep::calls {
 
+void holdWatching(bool hold) {
+  agent::Wishes& here = agent::wishes();
+  const std::lock_guard lock(here.mutex);
+  here.holds += hold ? 1 : -1;
+  here.update();
+}
+
 bool beginCall(const WatchedCall& call) {
   agent::Wishes& here = agent::wishes();
   agent::Begun& begun = agent::begun;
@@ -146,6 +159,7 @@ bool beginCall(const WatchedCall& call) {
   bool stops = false;
   {
     const std::lock_guard lock(here.mutex);
+    if (!here.any()) return true;
     begun.place = {status.frame.load(agent::kRelaxed), here.calls++};
     begun.told = here.tell && agent::isIn(begun.place.frame, here.watch.first_frame, here.watch.last_frame) &&
                  (here.told.empty() || here.told.match(call.description));

@@ -1,9 +1,17 @@
 // Draws between glBegin and glEnd. The debugger must stand before such a draw and be able to repeat it, but
 // its vertices come only after glBegin. So where it is going to stop, the driver compiles them into a display
-// list of ours, which is then the draw; everywhere else the calls pass through. Runs inside the program under
-// debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+// list of ours, which is then the draw; everywhere else the calls pass through. Calls that a list does not
+// hold would be made while it is compiled, where GL refuses them between glBegin and glEnd: so do we. Runs
+// inside the program under debug: throws nothing, starts no thread, calls GL only through dispatch::gl().
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
+#include "interceptor/calls/watch.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/registry/gl_enums.h"
 
@@ -17,6 +25,52 @@ constinit thread_local GLuint list = 0;
 constinit thread_local GLenum list_mode = 0;
 
 constinit thread_local bool between = false;
+constinit thread_local bool refused = false;  // a call since glBegin
+
+// The commands that may stand between glBegin and glEnd (OpenGL 4.6 compatibility, 10.7.5, and extensions).
+constexpr const char* kAllowed[] = {
+    "glVertex[1-4]*",
+    "glVertexP[2-4]*",
+    "glColor[34]*",
+    "glColorP[34]*",
+    "glSecondaryColor3*",
+    "glNormal3*",
+    "glSecondaryColorP3*",
+    "glNormalP3*",
+    "glTexCoord[1-4]*",
+    "glTexCoordP[1-4]*",
+    "glMultiTexCoord[1-4]*",
+    "glMultiTexCoordP[1-4]*",
+    "glFogCoord[dfh]*",
+    "glIndex[dfisx]*",
+    "glIndexub*",
+    "glEdgeFlag",
+    "glEdgeFlagv",
+    "glMaterial[fix]*",
+    "glVertexAttrib[1-4]*",
+    "glVertexAttrib[ILP][1-4]*",
+    "glVertexAttribs[1-4]*",
+    "glEvalCoord[12]*",
+    "glEvalPoint[12]",
+    "glArrayElement*",
+    "glCallList*",
+    "glEnd",
+    "glPrimitiveRestartNV",
+    "glVertexWeight[fh]*",
+    "glWeight*vARB",
+    "glMatrixIndex*vARB",
+    "glVertexStream[1-4]*",
+    "glNormalStream3*",
+    "glGlobalAlphaFactor*SUN",
+    "glReplacementCode*",
+    "glVariant*v*",
+};
+
+bool allowedBetween(const char* name) {
+  const bool of_gl = std::strncmp(name, "gl", 2) == 0 && std::strncmp(name, "glX", 3) != 0;
+  return !of_gl || std::any_of(std::begin(kAllowed), std::end(kAllowed),
+                               [&](const char* pattern) { return fnmatch(pattern, name, 0) == 0; });
+}
 
 DrawCall told(GLenum mode) {
   return {
@@ -48,6 +102,12 @@ bool betweenBeginAndEnd() {
   return between;
 }
 
+bool refusesNow(const CallDescription& call) {
+  if (list == 0 || allowedBetween(call.name)) return false;
+  refused = true;
+  return true;
+}
+
 void replace_glBegin(GLenum mode) {
   between = true;
   if (list == 0 && !compilingList() && stopsAtNextDraw()) {
@@ -55,6 +115,8 @@ void replace_glBegin(GLenum mode) {
     if (reason == nullptr) list = gl().GenLists(1);
     if (list != 0) {
       list_mode = mode;
+      refused = false;
+      holdWatching(true);
       gl().NewList(list, GL_COMPILE);
       return gl().Begin(mode);
     }
@@ -72,6 +134,7 @@ void replace_glEnd() {
   between = false;
   if (list == 0) return;
   gl().EndList();
+  holdWatching(false);
   const GLuint drawn = list;
   list = 0;
   DrawCall call = told(list_mode);
@@ -80,6 +143,7 @@ void replace_glEnd() {
   onDraw(call);
   gl().CallList(drawn);
   gl().DeleteLists(drawn, 1);
+  if (refused) gl().End();  // without glBegin: the same error as the refused calls'
 }
 
 }  // namespace shadestep::calls

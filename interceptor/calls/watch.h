@@ -42,6 +42,13 @@ struct WatchedCall {
 bool beginCall(const WatchedCall&);
 void endCall(const WatchedCall&, std::uint64_t result, bool made);
 
+// Watching is on as long as any thread holds it here, whatever the session asks for; implemented by the
+// agent.
+void holdWatching(bool hold);
+// Whether GL refuses this call where the program is, but the driver would not, because it compiles a list of
+// ours between glBegin and glEnd. The program will have its error.
+bool refusesNow(const CallDescription&);
+
 template <class Value>
 std::uint64_t asWord(Value value) {
   static_assert(sizeof value <= sizeof(std::uint64_t));
@@ -70,7 +77,7 @@ template <class Result, class... Parameters>
   const WatchedCall call{description, words};
   constexpr std::index_sequence_for<Parameters...> kAll;
   insideWatched = true;
-  const bool make = beginCall(call);
+  const bool make = beginCall(call) && !refusesNow(description);
   if constexpr (std::is_void_v<Result>) {
     if (make) callWith(self, words, kAll);
     endCall(call, 0, make);

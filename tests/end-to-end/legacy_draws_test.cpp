@@ -52,6 +52,18 @@ TEST(LegacyDraws, LeaveTheProgramItsStateAndPicture) {
   EXPECT_EQ(readFile(scratch.file("bare")), readFile(scratch.file("debugged")));
 }
 
+// Where the debugger stops, they are compiled into a display list, which would carry out what OpenGL refuses
+// there.
+TEST(LegacyDraws, RefuseWhatOpenGlRefuses) {
+  const Scratch scratch;
+  EXPECT_EQ(scratch.run({binary("programs/between-begin-end"), "bare"}).status, 0);
+  const Finished run = scratch.shadestep({"run", "--every-draw", "--json"},
+                                         {binary("programs/between-begin-end"), "debugged"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("debugged"), 22);
+  EXPECT_EQ(readFile(scratch.file("bare")), readFile(scratch.file("debugged")));
+}
+
 TEST(LegacyDraws, AreVerified) {
   const Scratch scratch;
   const Finished verified =
