@@ -130,6 +130,11 @@ std::vector<std::string> underX(std::vector<std::string> command) {
   return command;
 }
 
+std::vector<std::string> underWayland(std::vector<std::string> command) {
+  command.insert(command.begin(), UNDER_WESTON);
+  return command;
+}
+
 std::string readFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream content;

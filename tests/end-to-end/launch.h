@@ -51,6 +51,8 @@ std::string binary(const std::string& name);
 std::vector<std::string> withoutStorage(const std::string& name);
 // The command prefixed so that it has an X server of its own.
 std::vector<std::string> underX(std::vector<std::string> command);
+// The same with a Wayland server; ends with 77 where there is none.
+std::vector<std::string> underWayland(std::vector<std::string> command);
 
 std::string readFile(const std::string& path);
 // Rows of comma-separated cells, the header left out.

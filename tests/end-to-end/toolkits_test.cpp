@@ -14,6 +14,7 @@ struct Toolkit {
   std::vector<std::string> arguments;
   std::string variable;          // NAME=VALUE of its environment
   std::uint64_t own_frames = 0;  // that the toolkit presents before the program's first
+  std::vector<std::string> (*under)(std::vector<std::string>) = underX;
 };
 
 void PrintTo(const Toolkit& toolkit, std::ostream* out) {
@@ -37,9 +38,10 @@ TEST_P(Toolkits, AreDebuggedInAnyFrame) {
         "--continue",        "--frame", std::to_string(toolkit.own_frames + frame),
         "--pixel",           "10,7",    "--"};
     debugger.insert(debugger.end(), command.begin(), command.end());
-    const Finished finished = scratch.run(underX(debugger));
+    const Finished finished = scratch.run(toolkit.under(debugger));
     constexpr int kCannotRunHere = 77;
-    if (finished.status == 5 && scratch.run(underX(command)).status == kCannotRunHere)
+    if (finished.status == kCannotRunHere) GTEST_SKIP() << finished.err;
+    if (finished.status == 5 && scratch.run(toolkit.under(command)).status == kCannotRunHere)
       GTEST_SKIP() << finished.err;
     ASSERT_EQ(finished.status, 0) << "the program's own look at its pixels, or ours\n" << finished.err;
     const Json run = finished.json();
@@ -64,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Toolkit{"GlxPixmap", "surfaces", {"glx-pixmap"}, "", 0},
                     Toolkit{"EglWindow", "surfaces", {"egl-window"}, "", 0},
                     Toolkit{"EglDevice", "surfaces", {"egl-device"}, "", 0},
-                    Toolkit{"EglGbm", "surfaces", {"egl-gbm"}, "", 0}),
+                    Toolkit{"EglGbm", "surfaces", {"egl-gbm"}, "", 0},
+                    Toolkit{"EglWayland", "surfaces", {"egl-wayland"}, "", 0, underWayland}),
     [](const auto& one) { return one.param.name; });
 
 // Before main, and before every constructor of what was loaded ahead of the library has run.

@@ -2,7 +2,8 @@
 //   toolkit-surfaces glx-window      a context of glXCreateContextAttribsARB on a GLX window
 //   toolkit-surfaces glx-old-window  one of glXCreateContext on an X window
 //   toolkit-surfaces glx-pbuffer | glx-pixmap
-//   toolkit-surfaces egl-window | egl-device | egl-gbm   on X11, on the first device, on a GBM surface
+//   toolkit-surfaces egl-window | egl-device | egl-gbm | egl-wayland   on X11, on the first device, on GBM,
+//   on Wayland
 // Ends with 77 where the driver or the machine has no such thing.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -10,7 +11,10 @@
 #include <GL/glxext.h>
 #include <fcntl.h>
 #include <gbm.h>
+#include <wayland-client.h>
+#include <wayland-egl.h>
 
+#include <cstring>
 #include <functional>
 #include <string_view>
 
@@ -152,7 +156,33 @@ Present eglGbm() {
   return eglCurrent(display, config, eglCreatePlatformWindowSurface(display, config, surface, nullptr));
 }
 
+// The surface has no role, so no compositor shows it: four frames are as many as there are buffers.
+Present eglWayland() {
+  wl_display* server = wl_display_connect(nullptr);
+  require(server != nullptr, "a Wayland server");
+  wl_compositor* compositor = nullptr;
+  const wl_registry_listener listener = {
+      .global =
+          [](void* found, wl_registry* registry, std::uint32_t name, const char* interface, std::uint32_t) {
+            if (std::strcmp(interface, "wl_compositor") == 0)
+              *static_cast<void**>(found) = wl_registry_bind(registry, name, &wl_compositor_interface, 1);
+          },
+      .global_remove = [](void*, wl_registry*, std::uint32_t) {}};
+  wl_registry* registry = wl_display_get_registry(server);
+  wl_registry_add_listener(registry, &listener, &compositor);
+  wl_display_roundtrip(server);
+  require(compositor != nullptr, "a Wayland compositor");
+  EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_WAYLAND_KHR, server, nullptr);
+  EGLConfig config = eglConfig(display, EGL_WINDOW_BIT);
+  wl_egl_window* window = wl_egl_window_create(wl_compositor_create_surface(compositor), kWidth, kHeight);
+  const Present present =
+      eglCurrent(display, config, eglCreatePlatformWindowSurface(display, config, window, nullptr));
+  eglSwapInterval(display, 0);
+  return present;
+}
+
 Present made(std::string_view way) {
+  if (way == "egl-wayland") return eglWayland();
   if (way == "egl-device") return eglDevice();
   if (way == "egl-gbm") return eglGbm();
   Display* display = XOpenDisplay(nullptr);
