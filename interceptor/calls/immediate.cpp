@@ -13,6 +13,7 @@
 #include "interceptor/calls/hooks.h"
 #include "interceptor/calls/watch.h"
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/errors.h"
 #include "interceptor/registry/gl_enums.h"
 
 namespace shadestep::calls {
@@ -96,6 +97,14 @@ const char* obstacle() {
   return nullptr;
 }
 
+// Whether the driver refuses to draw as things are: its error then comes with glBegin, not with a list.
+bool refusesToBegin(GLenum mode) {
+  const guard::ErrorGuard errors;
+  gl().Begin(mode);
+  gl().End();
+  return guard::clearErrors();
+}
+
 }  // namespace
 
 bool betweenBeginAndEnd() {
@@ -110,7 +119,7 @@ bool refusesNow(const CallDescription& call) {
 
 void replace_glBegin(GLenum mode) {
   between = true;
-  if (list == 0 && !compilingList() && stopsAtNextDraw()) {
+  if (list == 0 && !compilingList() && stopsAtNextDraw() && !refusesToBegin(mode)) {
     const char* const reason = obstacle();
     if (reason == nullptr) list = gl().GenLists(1);
     if (list != 0) {

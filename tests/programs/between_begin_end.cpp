@@ -27,6 +27,17 @@ void allowed(const char* name, const std::function<void()>& call) {
   if (errorOf(call) != GL_NO_ERROR) fail("not allowed between glBegin and glEnd:", name);
 }
 
+GLuint incompleteFramebuffer() {
+  GLuint framebuffer = 0;
+  GLuint texture = 0;
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glGenTextures(1, &texture);
+  glBindTexture(GL_TEXTURE_2D, texture);  // has no image
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  return framebuffer;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -80,5 +91,12 @@ void main()
   allowed("glVertexAttrib4Nub", [] { glVertexAttrib4Nub(3, 1, 2, 3, 4); });
   allowed("glVertexAttribI1i", [] { glVertexAttribI1i(3, 1); });
   allowed("glEvalPoint1", [] { glEvalPoint1(0); });
+
+  // What refuses to draw at all: its error comes with glBegin, whether there are vertices or not.
+  glBindFramebuffer(GL_FRAMEBUFFER, incompleteFramebuffer());
+  glBegin(GL_TRIANGLES);
+  glEnd();
+  if (glGetError() != GL_INVALID_FRAMEBUFFER_OPERATION) fail("an incomplete framebuffer is drawn to");
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
   context.save(argc, argv);
 }
