@@ -96,12 +96,15 @@ class TypeReader {
 
  private:
   // An array without a size is as large as the largest constant index asks for (GLSL 4.60, 4.1.9), unless its
-  // size is known at run time only. Arrays between other stages get theirs from layouts, which nobody has
-  // read here.
+  // size is known at run time only. The user's arrays between other stages get theirs from layouts, which
+  // nobody has read here.
   int sizeByUse(const glslang::TType& type) const {
     const glslang::TArraySizes& sizes = *type.getArraySizes();
     const bool at_run_time = type.getQualifier().storage == glslang::EvqBuffer || sizes.isVariablyIndexed();
-    if (stage_ != Stage::fragment || at_run_time || sizes.isDefaultImplicitlySized()) return 0;
+    const glslang::TBuiltInVariable built_in = type.getQualifier().builtIn;
+    const bool by_use = stage_ == Stage::fragment || built_in == glslang::EbvClipDistance ||
+                        built_in == glslang::EbvCullDistance;
+    if (!by_use || at_run_time || sizes.isDefaultImplicitlySized()) return 0;
     return sizes.isImplicitlySized() ? sizes.getImplicitSize() : 0;
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "instrumenter/constructs/declaration.h"
 #include "instrumenter/constructs/fragment_outputs.h"
 #include "instrumenter/constructs/function.h"
 #include "instrumenter/constructs/jump.h"
@@ -152,6 +153,10 @@ std::string Recorder::opaque(StatementId id) const {
   const frontend::TokenRange condition = conditionTokens(shader_, id);
   std::set<std::string> names;
   for (frontend::TokenIndex i = condition.first; i <= condition.last; ++i) {
+    if (const frontend::TokenIndex behind = behindLength(i, condition); behind > i) {
+      i = behind;
+      continue;
+    }
     const frontend::Token& token = shader_.tokens[static_cast<std::size_t>(i)];
     if (token.kind == frontend::TokenKind::identifier && !isConstant(token.text)) names.insert(token.text);
   }
@@ -159,6 +164,24 @@ std::string Recorder::opaque(StatementId id) const {
   if (names.size() < 2) return "";
   const std::string outcome = conditions_.outcome(id);
   return ", " + outcome + " = " + outcome + " || " + draft_.name("invocation") + " < 0";
+}
+
+// The last token of `array.length()` that begins at this one, a number like any other; `i` where none does,
+// or where the array has as many elements as its buffer has room for.
+frontend::TokenIndex Recorder::behindLength(frontend::TokenIndex i, frontend::TokenRange within) const {
+  const auto text = [&](frontend::TokenIndex at) -> const std::string& {
+    return shader_.tokens[static_cast<std::size_t>(at)].text;
+  };
+  const bool in_buffer =
+      std::any_of(shader_.variables.begin(), shader_.variables.end(),
+                  [&](const Variable& one) { return one.storage == Storage::buffer && one.name == text(i); });
+  if (in_buffer) return i;
+  frontend::TokenIndex at = i + 1;
+  while (at + 3 <= within.last && (text(at) == "." || text(at) == "[")) {
+    if (text(at) == "." && text(at + 1) == "length" && text(at + 2) == "(") return at + 3;
+    at = text(at) == "." ? at + 2 : matchingBracket(shader_, at) + 1;
+  }
+  return i;
 }
 
 bool Recorder::isConstant(const std::string& name) const {

@@ -2,6 +2,8 @@
 // ES 1.00).
 #pragma once
 
+#include <functional>
+
 #include "session/thread_run.h"
 
 namespace shadestep::session {
@@ -12,5 +14,10 @@ ThreadRun followPixelByProbes(Session&, int x, int y, std::size_t most_steps = 5
 
 // The same of a thread of the selected stage, which is another one, by its name.
 ThreadRun followThreadByProbes(Session&, const ThreadName&, std::size_t most_steps = 500);
+
+// The recorded run where it leaves the outputs as they were. Else the driver has compiled the recording in
+// another way than the program's own text: then the run by redraws, if these do leave the outputs, with a
+// note.
+ThreadRun trusted(ThreadRun recorded, const std::function<ThreadRun()>& redraw);
 
 }  // namespace shadestep::session

@@ -12,6 +12,7 @@
 #include "session/call_journal.h"
 #include "session/error.h"
 #include "session/session.h"
+#include "session/timed_out.h"
 
 namespace shadestep::session {
 namespace {
@@ -188,9 +189,9 @@ std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) 
       if (poll(entries.data(), 1, 0) <= 0) return nullptr;
     } else if (poll(entries.data(), entries.size(), remainingMs(deadline)) == 0) {
       for (const auto& peer : peers_) noteLast(*peer);
-      throw Error(Outcome::ended, "the time limit ran out while the program was in frame " +
-                                      std::to_string(last_.frame) + ", after " + std::to_string(last_.draws) +
-                                      " draws of it; give more with --timeout");
+      throw TimedOut(Outcome::ended,
+                     "the time limit ran out while the program was in frame " + std::to_string(last_.frame) +
+                         ", after " + std::to_string(last_.draws) + " draws of it; give more with --timeout");
     }
 
     if ((entries[1].revents & POLLIN) != 0) pauseAll();
@@ -242,7 +243,7 @@ wire::Packet Programs::request(wire::MessageT& message, const Deadline& deadline
     received = stopped_->channel.receive(reply, remainingMs(deadline));
   if (received == wire::Received::message) return reply;
   if (received == wire::Received::timeout) {
-    throw Error(Outcome::failed, "the time limit ran out during a replay; give more with --timeout");
+    throw TimedOut(Outcome::failed, "the time limit ran out during a replay; give more with --timeout");
   }
   stopped_->channel.close();
   stopped_ = nullptr;

@@ -1,6 +1,7 @@
 // Capture passes of stages other than the fragment stage: their threads come as a list.
 #include <algorithm>
 
+#include "instrumenter/streams.h"
 #include "session/session_state.h"
 #include "session/thread_order.h"
 #include "session/values.h"
@@ -61,13 +62,32 @@ void sortByIdentity(ThreadWords& threads, const AttachmentLayout& layout, Stage 
 
 }  // namespace
 
-// Those of 64 bits first, which transform feedback wants at even offsets.
+// Stream by stream, each to a buffer of its own; of each those of 64 bits first, which transform feedback
+// wants at even offsets.
 ComparedOutputs comparedOutputs(const frontend::Shader& last, int components) {
   ComparedOutputs compared;
   std::vector<instrumenter::FeedbackOutput> outputs = instrumenter::feedbackOutputs(last);
   std::stable_partition(outputs.begin(), outputs.end(), hasWideComponents);
+  const auto stream = [&](const instrumenter::FeedbackOutput& output) {
+    return last.stage == Stage::geometry ? instrumenter::streamOf(last, output.name) : 0;
+  };
+  std::stable_sort(outputs.begin(), outputs.end(),
+                   [&](const auto& one, const auto& other) { return stream(one) < stream(other); });
+  int current = 0;
+  int words_before = 0;  // of the streams before
   bool wide = false;
+  const auto fill = [&] {
+    if (!wide || (compared.words - words_before) % 2 == 0) return;
+    compared.names.emplace_back("gl_SkipComponents1");
+    ++compared.words;
+  };
   for (const instrumenter::FeedbackOutput& output : outputs) {
+    for (; current < stream(output); ++current) {
+      fill();
+      compared.names.emplace_back("gl_NextBuffer");
+      words_before = compared.words;
+      wide = false;
+    }
     const int words = frontend::wordCount(output.type);
     if (words == 0 || compared.words + words + 1 > components - kLeastRoom) {
       compared.left_out += (compared.left_out.empty() ? "" : ", ") + output.name;
@@ -77,10 +97,7 @@ ComparedOutputs comparedOutputs(const frontend::Shader& last, int components) {
     compared.words += words;
     wide = wide || hasWideComponents(output);
   }
-  if (wide && compared.words % 2 != 0) {
-    compared.names.emplace_back("gl_SkipComponents1");
-    ++compared.words;
-  }
+  fill();
   return compared;
 }
 

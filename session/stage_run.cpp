@@ -154,6 +154,7 @@ ThreadRun followThread(Session& session, const ThreadName& name) {
   const std::size_t number = requireThread(inputs, name);
 
   auto instrumented = instrumenter::instrumentRecording(shader, session.target());
+  const auto redraw = [&] { return followThreadByProbes(session, name); };
   ThreadRun run;
   if (auto* recording = std::get_if<instrumenter::RecordingShader>(&instrumented)) {
     Prepared program = session.prepare(*recording);
@@ -165,8 +166,9 @@ ThreadRun followThread(Session& session, const ThreadName& name) {
     run.steps = stepsOf(shader, recorded.layout, thread);
     run.complete = thread.complete;
     run.check = recorded.execution.check;
+    run = trusted(std::move(run), redraw);
   } else {
-    run = followThreadByProbes(session, name);
+    run = redraw();
   }
   for (const WatchedValues& one : inputs.identity) run.identity.push_back({one.name, one.valueAt(number)});
   std::string ambiguous;

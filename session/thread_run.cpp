@@ -159,6 +159,15 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
   run.steps = stepsOf(session.shader(Stage::fragment), recorded.layout, thread);
   run.outputs = outputsAt(recorded.execution, x, y);
   run.check = recorded.execution.check;
+  // Redraws see the visible fragment only.
+  if (run.visible) {
+    run = trusted(std::move(run), [&] {
+      ThreadRun redrawn = followPixelByProbes(session, x, y);
+      redrawn.hit = redrawn.visible_hit = chosen;
+      redrawn.hits = hits.count;
+      return redrawn;
+    });
+  }
   run.check.dropped = droppedUniforms(session);
   return run;
 }

@@ -48,6 +48,7 @@ VerifyCounts& VerifyCounts::operator+=(const VerifyCounts& other) {
   state_leaks += other.state_leaks;
   crashes += other.crashes;
   unsteady += other.unsteady;
+  timeouts += other.timeouts;
   return *this;
 }
 
@@ -107,10 +108,10 @@ void Verifier::verifyStage(Stage stage, double seconds) {
   verifyThisDraw(session_, options, report_);
 }
 
-void Verifier::addCrash(const std::string& detail) {
-  ++report_.outside.crashes;
+void Verifier::addEnd(Kind kind, const std::string& detail) {
+  ++(kind == Kind::timeout ? report_.outside.timeouts : report_.outside.crashes);
   VerifyFailure failure;
-  failure.kind = Kind::crash;
+  failure.kind = kind;
   failure.detail = detail;
   report_.failures.push_back(std::move(failure));
 }
@@ -147,6 +148,8 @@ const char* kindName(VerifyFailure::Kind kind) {
       return "crash";
     case Kind::unsteady:
       return "unsteady";
+    case Kind::timeout:
+      return "timeout";
   }
   return "?";
 }

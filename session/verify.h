@@ -29,7 +29,7 @@ struct VerifyOptions {
 
 // One thing that was not as it must be, so that a person can look at it again with `shadestep debug`.
 struct VerifyFailure {
-  enum class Kind { compile, output, value, state, crash, unsteady };
+  enum class Kind { compile, output, value, state, crash, unsteady, timeout };
   Kind kind = Kind::value;
   std::optional<Stage> stage;  // nothing: of the whole program
   std::uint64_t frame = 0, draw = 0;
@@ -50,10 +50,12 @@ struct VerifyCounts {
   std::uint64_t analysis_failed = 0;  // different shaders that cannot be analysed
   std::uint64_t compile_failed = 0, output_mismatch = 0, value_mismatch = 0, state_leaks = 0, crashes = 0;
   std::uint64_t unsteady = 0;  // passes over the same draw that see different threads
+  std::uint64_t timeouts = 0;  // the time of the session ran out: what is left was not looked at
 
   VerifyCounts& operator+=(const VerifyCounts&);
   bool passed() const {
-    return compile_failed + output_mismatch + value_mismatch + state_leaks + crashes + unsteady == 0;
+    return compile_failed + output_mismatch + value_mismatch + state_leaks + crashes + unsteady + timeouts ==
+           0;
   }
 };
 
@@ -79,7 +81,7 @@ class Verifier {
   void verifyDraw();
   const VerifyReport& report() const { return report_; }
   // Something that went wrong outside a draw's own checks, such as the end of the program.
-  void addCrash(const std::string& detail);
+  void addEnd(VerifyFailure::Kind, const std::string& detail);
 
  private:
   void checkDraw();

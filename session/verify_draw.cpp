@@ -125,8 +125,7 @@ class DrawCheck {
       findings_.skip(check.reason);
       return false;
     }
-    findings_.checkOutputs(nullptr, "copy", check);
-    return check.differing == 0;
+    return findings_.checkOutputs(nullptr, "copy", check);
   }
 
   // ---- which threads
@@ -158,8 +157,9 @@ class DrawCheck {
       for (const ChosenThread& chosen : chosen_) {
         RecordedThread one = session_.stage() == Stage::fragment ? recordPixel(prepared, chosen)
                                                                  : recordNamed(prepared, chosen);
-        findings_.checkOutputs(nullptr, "recording", one.recorded.execution.check);
+        const bool trusted = findings_.checkOutputs(nullptr, "recording", one.recorded.execution.check);
         one.recorded.execution = {};
+        if (!trusted) continue;
         if (one.thread < 0 && chosen.discarded) {
           findings_.skip(
               "several threads of a pixel end in a discard: a recording does not say which one the probes "
@@ -241,7 +241,7 @@ class DrawCheck {
     const Statement& at = shader_.statements[static_cast<std::size_t>(probe.statement)];
     ThreadValues found;
     if (!findings_.attempt(&at, "choice", [&] { found = valuesAt(session_, probe); })) return;
-    findings_.checkOutputs(&at, "choice", found.check);
+    if (!findings_.checkOutputs(&at, "choice", found.check)) return;
     windows_.add(probe, {}, found);
     for (const RecordedThread& one : recorded_) {
       const auto place = found.find(one.chosen.name);
@@ -303,7 +303,7 @@ class DrawCheck {
     const std::vector<Part> watched = watch(probe);
     ThreadValues found;
     if (!findings_.attempt(&at, plan, [&] { found = valuesAt(session_, probe); })) return;
-    findings_.checkOutputs(&at, plan, found.check);
+    if (!findings_.checkOutputs(&at, plan, found.check)) return;
     windows_.add(probe, watched, found);
     if (after && isForInit(shader_, at)) return;  // a recording has no record between init and condition
 

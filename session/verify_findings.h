@@ -19,8 +19,9 @@ class Findings {
   // `at`: nullptr for the whole draw.
   void fail(VerifyFailure::Kind, const frontend::Statement* at, const std::string& plan,
             const std::string& variable, const std::string& detail);
-  // An instrumented draw must leave the outputs as they were.
-  void checkOutputs(const frontend::Statement* at, const std::string& plan, const Check&);
+  // An instrumented draw must leave the outputs as they were. False where it does not: then its values are
+  // shown to nobody as right, and are not compared.
+  bool checkOutputs(const frontend::Statement* at, const std::string& plan, const Check&);
 
   // Runs one plan's pass; false if there is no result.
   template <class Pass>

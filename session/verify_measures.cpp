@@ -83,7 +83,7 @@ void checkLoops(Session& session, Findings& findings, const std::vector<Recorded
   if (std::none_of(shader.statements.begin(), shader.statements.end(), isLoop)) return;
   LoopsReport report;
   if (!findings.attempt(nullptr, "loops", [&] { report = profileLoops(session); })) return;
-  findings.checkOutputs(nullptr, "loops", report.check);
+  if (!findings.checkOutputs(nullptr, "loops", report.check)) return;
   ThreadValues threads;
   threads.width = report.width;
   threads.height = report.height;
@@ -125,7 +125,7 @@ void checkCounts(Session& session, Findings& findings, const std::vector<Recorde
         threads = onePass(session, std::get<instrumenter::AttachmentShader>(result));
       }))
     return;
-  findings.checkOutputs(nullptr, "count", threads.check);
+  if (!findings.checkOutputs(nullptr, "count", threads.check)) return;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const StatementId id = chosen[i];
     const Statement& at = shader.statements[static_cast<std::size_t>(id)];

@@ -79,7 +79,7 @@ void WindowCheck::compare(Window& window, const Item& item) {
   const Shader& shader = session_.shader();
   const Statement& at = statementOf(shader, item.probe.statement);
   const ThreadValues again = window.valuesAt(item.probe);
-  findings_.checkOutputs(&at, "window", again.check);
+  if (!findings_.checkOutputs(&at, "window", again.check)) return;
   if (again.marks != item.found.marks || !sameThreads(again.identity, item.found.identity)) {
     findings_.fail(Kind::value, &at, "window", "", "other threads get here than by a single probe");
     return;
@@ -152,7 +152,7 @@ void checkRedrawnRun(Session& session, Findings& findings, const RecordedThread&
   if (!findings.attempt(nullptr, "redraws",
                         [&] { run = followByProbes(session, one.chosen.name, most_steps); }))
     return;
-  findings.checkOutputs(nullptr, "redraws", run.check);
+  if (!findings.checkOutputs(nullptr, "redraws", run.check)) return;
   const std::vector<Step> redrawn = ownSteps(run.steps);
   const std::vector<Step> recorded = ownSteps(stepsOf(shader, one.recorded.layout, one.run()));
   for (std::size_t i = 0; i < std::min(redrawn.size(), recorded.size()); ++i) {

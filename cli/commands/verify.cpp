@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "cli/common.h"
+#include "session/timed_out.h"
 
 namespace shadestep::cli {
 namespace {
@@ -45,6 +46,7 @@ Json toJson(const session::VerifyCounts& counts) {
   json["state_leaks"] = counts.state_leaks;
   json["crashes"] = counts.crashes;
   json["unsteady"] = counts.unsteady;
+  json["timeouts"] = counts.timeouts;
   return json;
 }
 
@@ -78,7 +80,8 @@ void printText(const session::VerifyReport& report, double seconds) {
             << "  values that differ between plans          " << total.value_mismatch << "\n"
             << "  state left changed                        " << total.state_leaks << "\n"
             << "  crashes of the program                    " << total.crashes << "\n"
-            << "  passes that see other threads than others " << total.unsteady << "\n";
+            << "  passes that see other threads than others " << total.unsteady << "\n"
+            << "  ends by the time limit (--timeout)        " << total.timeouts << "\n";
   for (const auto& [what, count] : report.skipped)
     std::cout << "  skipped " << count << " x (" << session::stageName(what.first) << "): " << what.second
               << "\n";
@@ -125,9 +128,12 @@ int run(const Common& common, const Options& options) {
       if (options.twice) last_draw = LastDraw{stop, session::drawnHere(session)};
     });
     if (options.keep_running) status = session.runToEnd();
+  } catch (const session::TimedOut& error) {
+    if (verifier.report().draws == 0) throw;
+    verifier.addEnd(session::VerifyFailure::Kind::timeout, error.what());
   } catch (const session::Error& error) {
     if (verifier.report().draws == 0) throw;
-    verifier.addCrash(error.what());
+    verifier.addEnd(session::VerifyFailure::Kind::crash, error.what());
   }
   const Json identical = last_draw ? sameWithoutUs(common, *last_draw) : Json(nullptr);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -48,6 +48,16 @@ TokenRange globalDeclaration(const Shader& shader, const frontend::Variable& var
   return range;
 }
 
+TokenIndex openingBrace(const Shader& shader, TokenIndex i) {
+  int depth = 0;
+  for (--i; i >= 0; --i) {
+    const std::string& text = at(shader, i).text;
+    if (text == "}") ++depth;
+    if (text == "{" && depth-- == 0) return i;
+  }
+  return frontend::kNone;
+}
+
 TokenIndex matchingBracket(const Shader& shader, TokenIndex open) {
   const auto count = static_cast<TokenIndex>(shader.tokens.size());
   int depth = 0;

@@ -9,6 +9,9 @@ namespace shadestep::instrumenter {
 // built-in).
 frontend::TokenRange globalDeclaration(const frontend::Shader&, const frontend::Variable&);
 
+// The brace that opens the braces around a token; kNone outside of all.
+frontend::TokenIndex openingBrace(const frontend::Shader&, frontend::TokenIndex);
+
 // The token that matches the bracket at `open`: ( ) [ ] { }.
 frontend::TokenIndex matchingBracket(const frontend::Shader&, frontend::TokenIndex open);
 

@@ -123,6 +123,20 @@ std::string literalIndex(const Shader& shader, TokenIndex name) {
   return literal ? at(shader, name + 2).text : "";
 }
 
+// Built-in arrays that one index at least is no literal of stand in their whole, if the size is known.
+const Variable* wholeArray(const Shader& shader, const std::string& name) {
+  bool computed = false;
+  for (TokenIndex i = 0; i < tokenCount(shader); ++i)
+    computed = computed ||
+               (at(shader, i).text == name && !isRedeclaration(shader, i) && literalIndex(shader, i).empty());
+  if (!computed) return nullptr;
+  const auto found =
+      std::find_if(shader.variables.begin(), shader.variables.end(), [&](const Variable& variable) {
+        return variable.name == name && variable.type.isArray() && variable.type.array.front() > 0;
+      });
+  return found == shader.variables.end() ? nullptr : &*found;
+}
+
 Type typeOf(Basic basic, int rows) {
   Type type;
   type.basic = basic;
@@ -155,17 +169,6 @@ TokenIndex stripQualifiers(Draft& draft, TokenRange range) {
   return input;
 }
 
-// The brace of the nameless block that a variable is a member of; kNone for all others.
-TokenIndex openingBrace(const Shader& shader, const Variable& member) {
-  int depth = 0;
-  for (TokenIndex i = member.declared - 1; i >= 0; --i) {
-    const std::string& text = at(shader, i).text;
-    if (text == "}") ++depth;
-    if (text == "{" && depth-- == 0) return i;
-  }
-  return frontend::kNone;
-}
-
 TokenRange blockDeclaration(const Shader& shader, TokenIndex open) {
   TokenIndex first = open - 1;
   const auto ends = [&shader](TokenIndex i) {
@@ -193,7 +196,7 @@ void openBlock(Draft& draft, TokenRange declaration, TokenIndex open) {
 
 void makeVariable(Draft& draft, const Variable& input) {
   const Shader& shader = draft.shader();
-  if (const TokenIndex open = openingBrace(shader, input); open != frontend::kNone)
+  if (const TokenIndex open = openingBrace(shader, input.declared); open != frontend::kNone)
     return openBlock(draft, blockDeclaration(shader, open), open);
   const TokenRange declaration = globalDeclaration(shader, input);
   for (TokenIndex i = declaration.first; i <= declaration.last; ++i) {
@@ -242,9 +245,14 @@ Result<std::vector<ThreadInput>> threadInputs(const Draft& draft) {
     const std::string& text = at(shader, i).text;
     const BuiltIn* const array = builtInArray(shader, text);
     if (array != nullptr && !isRedeclaration(shader, i)) {
+      if (const Variable* const whole = wholeArray(shader, text)) {
+        if (seen.insert(text).second) inputs.push_back({text, draft.name(text.substr(3)), whole->type});
+        continue;
+      }
       const std::string index = literalIndex(shader, i);
       if (index.empty())
-        return Failure{"The inputs cannot be replaced yet: " + text + " is used without a literal index."};
+        return Failure{"The inputs cannot be replaced yet: " + text +
+                       " is used without a literal index or a size."};
       if (seen.insert(text + index).second)
         inputs.push_back({text + "[" + index + "]", draft.name(text.substr(3) + index),
                           typeOf(array->basic, array->rows)});
@@ -273,7 +281,8 @@ void replaceInputs(Draft& draft, const std::vector<ThreadInput>& inputs) {
     if (isInterpolation(token.text))
       draft.edits.replace(i, draft.name(token.text.substr(std::string_view("interpolate").size())));
     const bool array = builtInArray(shader, token.text) != nullptr;
-    const std::string watch = array ? token.text + "[" + literalIndex(shader, i) + "]" : token.text;
+    const bool element = array && wholeArray(shader, token.text) == nullptr;
+    const std::string watch = element ? token.text + "[" + literalIndex(shader, i) + "]" : token.text;
     const auto input = std::find_if(inputs.begin(), inputs.end(), [&watch](const ThreadInput& candidate) {
       return candidate.input == watch && candidate.input != candidate.variable;
     });
@@ -286,7 +295,7 @@ void replaceInputs(Draft& draft, const std::vector<ThreadInput>& inputs) {
       i = declaration.last;
     } else if (input != inputs.end()) {
       draft.edits.replace(i, input->variable);
-      if (array)
+      if (element)
         for (TokenIndex index = i + 1; index <= i + 3; ++index) draft.edits.remove(index);
     }
   }

@@ -40,7 +40,7 @@ Refusal DrawTraces::read(std::byte* destination) {
 
 std::vector<Section> StageTraces::sections() const {
   std::vector<Section> sections;
-  const std::uint64_t words = feedback_.records() * static_cast<std::uint64_t>(feedback_.outputWords());
+  const std::uint64_t words = feedback_.outputWords();
   if (words > 0) sections.push_back({"the outputs of the " + stage_ + " stage", words * 4, 4, words});
   append(sections, memory_.sections());
   return sections;
@@ -48,7 +48,7 @@ std::vector<Section> StageTraces::sections() const {
 
 Refusal StageTraces::read(std::byte* destination) {
   feedback_.readOutputs(destination);
-  const std::size_t words = feedback_.records() * static_cast<std::size_t>(feedback_.outputWords());
+  const std::size_t words = feedback_.outputWords();
   const guard::PixelReadGuard reading(facts_);
   return memory_.read(destination + words * 4);
 }

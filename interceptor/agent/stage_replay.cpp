@@ -68,7 +68,7 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
   }
 
   wire::ExecutedT executed;
-  std::uint64_t records = 0;
+  capture::Records records;
   if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
   CpuTime cpu;
   const std::size_t sets = std::max<std::size_t>(request.sets.size(), 1);
@@ -101,8 +101,7 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
     return refusal;
   } else if (!stages.outputs.empty() && records != bare->records) {
     // Behind the last record of a draw lie those of the one before.
-    const std::uint64_t more = std::max(records, bare->records) - std::min(records, bare->records);
-    executed.differing += more * static_cast<std::uint64_t>(std::max(feedback_.outputWords(), 1));
+    executed.differing += feedback_.differing(records, bare->records);
   }
   if (guard::clearErrors()) return guard::internal("the driver refused to read the captured values back");
   return executed;
@@ -157,14 +156,14 @@ bool StageReplay::ownRecords(const replay::ProgramCopy& copy) const {
 }
 
 bool StageReplay::counted(const replay::ProgramCopy& copy) const {
-  return copy.stages->feedback.words() == 0 || (!ownRecords(copy) && records_.count(copy.stages->last) != 0);
+  return copy.stages->feedback.empty() || (!ownRecords(copy) && records_.count(copy.stages->last) != 0);
 }
 
 // Everything as it was at the stop, and room for as many records as the stage makes, whatever of its texts
 // runs.
 Refusal StageReplay::prepare(const replay::ProgramCopy& copy) {
   const replay::Stages& stages = *copy.stages;
-  std::uint64_t records = 0;
+  capture::Records records;
   if (!counted(copy)) {
     memory_.restore();
     if (Refusal refusal = feedback_.count(
@@ -172,18 +171,18 @@ Refusal StageReplay::prepare(const replay::ProgramCopy& copy) {
         !refusal.text.empty())
       return refusal;
     if (!ownRecords(copy)) records_[stages.last] = records;
-  } else if (stages.feedback.words() > 0) {
+  } else if (!stages.feedback.empty()) {
     records = records_[stages.last];
   }
   memory_.restore();
-  return feedback_.reset(layoutOf(copy), records);
+  return feedback_.reset(layoutOf(copy), std::move(records));
 }
 
 void StageReplay::call(const replay::ProgramCopy& copy) const {
   call_.replay(call_.arguments, asPoints(copy) ? GL_POINTS : call_.mode);
 }
 
-std::uint64_t StageReplay::drawOnce(const replay::ProgramCopy& copy) const {
+capture::Records StageReplay::drawOnce(const replay::ProgramCopy& copy) const {
   return feedback_.record([&] { call(copy); });
 }
 

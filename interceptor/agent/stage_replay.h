@@ -45,7 +45,7 @@ class StageReplay {
   struct Bare {
     std::unique_ptr<replay::ProgramCopy> copy;
     Check check;
-    std::uint64_t records = 0;  // that its last draw made
+    capture::Records records;  // that its last draw made
   };
   guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy& copy, const guard::ProgramGuard&,
                                            const wire::ExecuteT&, wire::SharedMemory& bulk);
@@ -57,7 +57,7 @@ class StageReplay {
   bool counted(const replay::ProgramCopy&) const;
   guard::Refusal prepare(const replay::ProgramCopy&);
   void call(const replay::ProgramCopy&) const;
-  std::uint64_t drawOnce(const replay::ProgramCopy&) const;
+  capture::Records drawOnce(const replay::ProgramCopy&) const;
 
   const calls::DrawCall& call_;
   const DrawFacts& facts_;
@@ -67,7 +67,7 @@ class StageReplay {
   capture::Feedback feedback_;
   capture::PlainTarget target_;
   std::map<std::string, Bare> bare_;  // by stage and names of outputs
-  std::map<wire::Stage, std::uint64_t> records_;
+  std::map<wire::Stage, capture::Records> records_;
 };
 
 }  // namespace shadestep::agent

@@ -18,90 +18,142 @@ std::uint64_t verticesOf(GLenum mode) {
   return mode == GL_TRIANGLES ? 3 : mode == GL_LINES ? 2 : 1;
 }
 
+std::uint64_t result(GLuint query) {
+  GLuint primitives = 0;
+  gl().GetQueryObjectuiv(query, GL_QUERY_RESULT, &primitives);
+  return primitives;
+}
+
 }  // namespace
+
+bool FeedbackLayout::empty() const {
+  return words() == 0 && std::all_of(more.begin(), more.end(), [](int words) { return words == 0; });
+}
 
 Feedback::~Feedback() {
   if (object_ != 0) gl().DeleteTransformFeedbacks(1, &object_);
-  if (buffer_ != 0) gl().DeleteBuffers(1, &buffer_);
+  for (const Buffer& buffer : buffers_)
+    if (buffer.name != 0) gl().DeleteBuffers(1, &buffer.name);
 }
 
 guard::Refusal Feedback::count(const FeedbackLayout& layout, const std::function<void()>& draw,
-                               std::uint64_t& records) {
-  records = 0;
-  if (layout.words() == 0) return {};
-  if (guard::Refusal refusal = reset(layout, verticesOf(layout.mode)); !refusal.text.empty()) return refusal;
+                               Records& records) {
+  records.assign(layout.buffers(), 0);
+  if (layout.empty()) return {};
+  if (guard::Refusal refusal = reset(layout, Records(layout.buffers(), verticesOf(layout.mode)));
+      !refusal.text.empty())
+    return refusal;
   records = record(draw);
   return {};
 }
 
-guard::Refusal Feedback::reset(const FeedbackLayout& layout, std::uint64_t records) {
+guard::Refusal Feedback::reset(const FeedbackLayout& layout, Records records) {
   layout_ = layout;
-  records_ = records;
-  if (layout.words() == 0) return {};
+  records_ = std::move(records);
+  records_.resize(layout.buffers());
+  if (layout.empty()) return {};
   if (facts_.pausesTransformFeedback()) {
     if (object_ == 0) gl().GenTransformFeedbacks(1, &object_);
     gl().BindTransformFeedback(GL_TRANSFORM_FEEDBACK, object_);
   }
-  if (buffer_ == 0) gl().GenBuffers(1, &buffer_);
-  gl().BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer_);
-  const std::uint64_t wanted = std::max<std::uint64_t>(words(), 4);
-  if (wanted <= room_ && !layout.holes) return {};
-  const std::vector<std::uint32_t> zeros(layout.holes ? wanted : 0);
+  buffers_.resize(std::max(buffers_.size(), layout.buffers()));
+  for (std::size_t i = 0; i < layout.buffers(); ++i)
+    if (guard::Refusal refusal = makeRoom(i); !refusal.text.empty()) return refusal;
+  return {};
+}
+
+guard::Refusal Feedback::makeRoom(std::size_t i) {
+  if (layout_.words(i) == 0) return {};
+  Buffer& buffer = buffers_[i];
+  if (buffer.name == 0) gl().GenBuffers(1, &buffer.name);
+  gl().BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLuint>(i), buffer.name);
+  const std::uint64_t wanted = std::max<std::uint64_t>(words(i), 4);
+  if (wanted <= buffer.room && !layout_.holes) return {};
+  const std::vector<std::uint32_t> zeros(layout_.holes ? wanted : 0);
   gl().BufferData(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(wanted * 4),
-                  layout.holes ? zeros.data() : nullptr, GL_STREAM_READ);
-  room_ = wanted;
+                  layout_.holes ? zeros.data() : nullptr, GL_STREAM_READ);
+  buffer.room = wanted;
   if (!guard::clearErrors()) return {};
-  room_ = 0;
+  buffer.room = 0;
   return guard::limit("the driver has no memory for " + std::to_string(wanted) +
                       " words of transform feedback; print fewer values at once");
 }
 
-std::uint64_t Feedback::record(const std::function<void()>& draw) const {
-  if (layout_.words() == 0) {
+Records Feedback::record(const std::function<void()>& draw) const {
+  Records records(layout_.buffers(), 0);
+  if (layout_.empty()) {
     draw();
-    return 0;
+    return records;
   }
-  GLuint query = 0;
-  gl().GenQueries(1, &query);
-  gl().BeginQuery(GL_PRIMITIVES_GENERATED, query);
+  std::vector<GLuint> queries(records.size());
+  gl().GenQueries(static_cast<GLsizei>(queries.size()), queries.data());
+  gl().BeginQuery(GL_PRIMITIVES_GENERATED, queries[0]);
+  for (GLuint i = 1; i < queries.size(); ++i) gl().BeginQueryIndexed(GL_PRIMITIVES_GENERATED, i, queries[i]);
   gl().BeginTransformFeedback(layout_.mode);
   draw();
   gl().EndTransformFeedback();
   gl().EndQuery(GL_PRIMITIVES_GENERATED);
-  GLuint primitives = 0;
-  gl().GetQueryObjectuiv(query, GL_QUERY_RESULT, &primitives);
-  gl().DeleteQueries(1, &query);
-  return primitives * verticesOf(layout_.mode);
+  for (GLuint i = 1; i < queries.size(); ++i) gl().EndQueryIndexed(GL_PRIMITIVES_GENERATED, i);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (layout_.words(i) != 0) records[i] = result(queries[i]) * verticesOf(layout_.mode);
+  gl().DeleteQueries(static_cast<GLsizei>(queries.size()), queries.data());
+  return records;
 }
 
 void Feedback::leaveMode(GLenum mode) const {
-  if (layout_.words() == 0 || mode == layout_.mode) return;
+  if (layout_.empty() || mode == layout_.mode) return;
   gl().BeginTransformFeedback(mode);
   gl().EndTransformFeedback();
 }
 
+int Feedback::outputs(std::size_t buffer) const {
+  return buffer == 0 ? layout_.output_words : layout_.more[buffer - 1];
+}
+
+std::uint64_t Feedback::words(std::size_t buffer) const {
+  return buffer < records_.size() ? records_[buffer] * static_cast<std::uint64_t>(layout_.words(buffer)) : 0;
+}
+
+std::uint64_t Feedback::outputWords() const {
+  std::uint64_t words = 0;
+  for (std::size_t i = 0; i < records_.size(); ++i)
+    words += records_[i] * static_cast<std::uint64_t>(outputs(i));
+  return words;
+}
+
+std::uint64_t Feedback::differing(const Records& some, const Records& others) const {
+  std::uint64_t words = 0;
+  for (std::size_t i = 0; i < std::min(some.size(), others.size()); ++i)
+    words += (std::max(some[i], others[i]) - std::min(some[i], others[i])) *
+             static_cast<std::uint64_t>(std::max(outputs(i), 1));
+  return words;
+}
+
 template <class Use>
-void Feedback::mapped(Use use) const {
-  if (words() == 0) return;
-  gl().BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffer_);
+void Feedback::mapped(std::size_t buffer, Use use) const {
+  if (words(buffer) == 0) return;
+  gl().BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffers_[buffer].name);
   const void* memory = gl().MapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0,
-                                           static_cast<GLsizeiptr>(words() * 4), GL_MAP_READ_BIT);
+                                           static_cast<GLsizeiptr>(words(buffer) * 4), GL_MAP_READ_BIT);
   if (memory == nullptr) return;
   use(static_cast<const std::byte*>(memory));
   gl().UnmapBuffer(GL_TRANSFORM_FEEDBACK_BUFFER);
 }
 
 void Feedback::read(void* destination) const {
-  mapped([&](const std::byte* memory) { std::memcpy(destination, memory, words() * 4); });
+  mapped(0, [&](const std::byte* memory) { std::memcpy(destination, memory, words() * 4); });
 }
 
 void Feedback::readOutputs(std::byte* destination) const {
-  const auto stride = static_cast<std::size_t>(layout_.words()) * 4;
-  const auto bytes = static_cast<std::size_t>(layout_.output_words) * 4;
-  mapped([&](const std::byte* memory) {
-    for (std::uint64_t i = 0; i < records_; ++i)
-      std::memcpy(destination + i * bytes, memory + i * stride + (stride - bytes), bytes);
-  });
+  for (std::size_t b = 0; b < records_.size(); ++b) {
+    const auto stride = static_cast<std::size_t>(layout_.words(b)) * 4;
+    const auto bytes = static_cast<std::size_t>(outputs(b)) * 4;
+    mapped(b, [&](const std::byte* memory) {
+      for (std::uint64_t i = 0; i < records_[b]; ++i)
+        std::memcpy(destination + i * bytes, memory + i * stride + (stride - bytes), bytes);
+    });
+    destination += records_[b] * bytes;
+  }
 }
 
 }  // namespace shadestep::capture

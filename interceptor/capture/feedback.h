@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "interceptor/guard/context_facts.h"
 #include "interceptor/guard/guards.h"
@@ -15,14 +16,22 @@
 
 namespace shadestep::capture {
 
-// What a linked program gives to transform feedback.
+// What a linked program gives to transform feedback. A geometry shader's stream n goes to buffer n; only the
+// first has captures.
 struct FeedbackLayout {
   GLenum mode = GL_POINTS;  // or GL_LINES, GL_TRIANGLES
   int capture_words = 0;    // of a record: captures first
   int output_words = 0;     // then original outputs
+  std::vector<int> more;    // words of a record of each further stream, all of them original outputs
   bool holes = false;       // there are words among them that nothing is written to
   int words() const { return capture_words + output_words; }
+  std::size_t buffers() const { return 1 + more.size(); }
+  int words(std::size_t buffer) const { return buffer == 0 ? words() : more[buffer - 1]; }
+  bool empty() const;
 };
+
+// How many records each buffer gets.
+using Records = std::vector<std::uint64_t>;
 
 class Feedback {
  public:
@@ -33,34 +42,44 @@ class Feedback {
 
   // How many records `draw` makes. The program that makes them is current; the caller holds a FeedbackGuard
   // for this and all below.
-  guard::Refusal count(const FeedbackLayout&, const std::function<void()>& draw, std::uint64_t& records);
+  guard::Refusal count(const FeedbackLayout&, const std::function<void()>& draw, Records&);
 
   // Makes room for so many records.
-  guard::Refusal reset(const FeedbackLayout&, std::uint64_t records);
+  guard::Refusal reset(const FeedbackLayout&, Records);
   // Runs `draw` with the feedback on; the result is how many records it made, which may be more than there is
   // room for. (Mesa's software renderer counts nothing without the feedback.)
-  std::uint64_t record(const std::function<void()>& draw) const;
+  Records record(const std::function<void()>& draw) const;
   // Mesa 22.3 has one primitive mode for all feedback objects, the one that began last: the program's own
   // feedback, if it is paused, would refuse its draws. To be called last, with a program of this layout
   // current.
   void leaveMode(GLenum) const;
 
-  std::uint64_t records() const { return records_; }
-  int outputWords() const { return layout_.output_words; }
-  std::uint64_t words() const { return records_ * static_cast<std::uint64_t>(layout_.words()); }
-  // Whole records; only their original outputs. An error is left to the caller.
+  // Of the first buffer.
+  std::uint64_t words() const { return words(0); }
+  // Of all buffers, one behind the other.
+  std::uint64_t outputWords() const;
+  // The words of outputs in which two draws differ by their numbers of records alone.
+  std::uint64_t differing(const Records&, const Records&) const;
+  // Whole records of the first buffer; the original outputs of all. An error is left to the caller.
   void read(void* words) const;
   void readOutputs(std::byte* words) const;
 
  private:
+  struct Buffer {
+    GLuint name = 0;
+    std::uint64_t room = 0;  // words
+  };
+  guard::Refusal makeRoom(std::size_t buffer);
+  int outputs(std::size_t buffer) const;  // words of a record
+  std::uint64_t words(std::size_t buffer) const;
   template <class Use>
-  void mapped(Use) const;
+  void mapped(std::size_t buffer, Use) const;
 
   const guard::ContextFacts& facts_;
-  GLuint object_ = 0, buffer_ = 0;
-  std::uint64_t room_ = 0;  // words
+  GLuint object_ = 0;
+  std::vector<Buffer> buffers_;
   FeedbackLayout layout_;
-  std::uint64_t records_ = 0;
+  Records records_;
 };
 
 }  // namespace shadestep::capture

@@ -216,8 +216,15 @@ capture::FeedbackLayout feedbackLayout(GLuint program, const wire::PrepareT& req
     GLenum type = 0;
     gl().GetTransformFeedbackVarying(program, i, static_cast<GLsizei>(name.size()), nullptr, &size, &type,
                                      name.data());
+    if (type == GL_NONE && name.starts_with("gl_NextBuffer")) {
+      layout.more.push_back(0);
+      continue;
+    }
     layout.holes |= type == GL_NONE;
-    (i < captures ? layout.capture_words : layout.output_words) += size * wordsOf(type);
+    if (!layout.more.empty())
+      layout.more.back() += size * wordsOf(type);
+    else
+      (i < captures ? layout.capture_words : layout.output_words) += size * wordsOf(type);
   }
   return layout;
 }

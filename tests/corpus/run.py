@@ -33,7 +33,8 @@ FOLDER = Path(__file__).resolve().parent
 REPOSITORY = FOLDER.parent.parent
 SECTIONS = {"vertex": "vertex", "tess-control": "tessellation control", "tess-eval": "tessellation evaluation",
             "geometry": "geometry", "compute": "compute"}
-FAILURES = ("compile_failed", "output_mismatch", "value_mismatch", "state_leaks", "crashes", "unsteady")
+FAILURES = ("compile_failed", "output_mismatch", "value_mismatch", "state_leaks", "crashes", "unsteady",
+            "timeouts")
 
 
 def check(test: str, root: Path, options: argparse.Namespace) -> dict:
@@ -109,7 +110,7 @@ def table(entries: list[dict]) -> str:
     """A row a directory, as Markdown."""
     header = ["directory", "tests", "driver skips", "draws", "shaders", "analysable", "sites", "values compared",
               "compile failures", "output mismatches", "value mismatches", "state leaks", "crashes",
-              "unsteady", "verdict changed", "the driver's own", "s"]
+              "unsteady", "out of time", "verdict changed", "the driver's own", "s"]
     rows: dict[str, collections.Counter] = collections.defaultdict(collections.Counter)
     for entry in entries:
         for name in (entry["directory"], "all"):
@@ -126,7 +127,7 @@ def table(entries: list[dict]) -> str:
             row["refused"] += report["analysis_failed"]
             row["sites"] += report["sites"]
             row["values compared"] += report["values_compared"]
-            for column, key in zip(header[8:14], FAILURES):
+            for column, key in zip(header[8:15], FAILURES):
                 excused = entry["undefined"] and key in ("output_mismatch", "value_mismatch")
                 row["the driver's own" if excused else column] += report[key]
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]

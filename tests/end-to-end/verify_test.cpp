@@ -8,7 +8,7 @@ namespace {
 
 void expectNothingWrong(const Json& report) {
   for (const char* name : {"analysis_failed", "compile_failed", "output_mismatch", "value_mismatch",
-                           "state_leaks", "crashes", "unsteady"}) {
+                           "state_leaks", "crashes", "unsteady", "timeouts"}) {
     EXPECT_EQ(report.at(name), 0) << name << "\n" << report.dump(1);
   }
   EXPECT_TRUE(report.at("failures").empty());

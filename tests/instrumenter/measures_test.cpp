@@ -475,6 +475,10 @@ TEST(IsolationText, DropsWhatVariablesCannotHave) {
       "void main() { o = vec4(gl_ClipDistance[1], gl_ClipDistance[0], 0.0, 1.0); }",
       "outvec4o;voidsd_main(){o=vec4(sd_ClipDistance1,sd_ClipDistance0,0.0,1.0);}");
   holds(
+      "#version 330 core\nuniform int i; in float gl_ClipDistance[2]; out vec4 o;\n"
+      "void main() { o = vec4(gl_ClipDistance[i], gl_ClipDistance[0], 0.0, 1.0); }",
+      "outvec4o;voidsd_main(){o=vec4(sd_ClipDistance[i],sd_ClipDistance[0],0.0,1.0);}");
+  holds(
       "#version 330 core\nin Block { noperspective vec2 a; flat int b; } block; out vec4 o;\n"
       "void main() { o = block.a.xyxy; }",
       "structBlock{vec2a;intb;}block;outvec4o;");
@@ -489,9 +493,8 @@ TEST(IsolationText, DropsWhatVariablesCannotHave) {
 }
 
 TEST(IsolationText, SaysWhatCannotBeIsolated) {
-  EXPECT_EQ(isolatedText("#version 330 core\nuniform int i; in float gl_ClipDistance[2]; out vec4 o;\n"
-                         "void main() { o = vec4(gl_ClipDistance[i]); }"),
-            "The inputs cannot be replaced yet: gl_ClipDistance is used without a literal index.");
+  EXPECT_EQ(isolatedText("#version 120\nuniform int i;\nvoid main() { gl_FragColor = gl_TexCoord[i]; }"),
+            "The inputs cannot be replaced yet: gl_TexCoord is used without a literal index or a size.");
 }
 
 }  // namespace
