@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "session/navigation.h"
 #include "session/thread_values.h"
@@ -55,6 +56,7 @@ class ProbedRun {
   // The fields' values of the thread on the pixel; empty if it does not get there. `probe.watches` may take
   // several passes.
   std::vector<NamedValue> look(Probe probe) {
+    left_out_.clear();
     std::vector<NamedValue> values;
     std::vector<frontend::Watch> rest = probe.watches;
     bool looked = false;
@@ -63,6 +65,7 @@ class ProbedRun {
       auto instrumented = instrumenter::instrumentSingle(shader_, probe, session_.target());
       if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) {
         if (rest.empty()) throw Error(Outcome::cannot_debug, failure->reason);
+        left_out_.push_back(rest.front().expression);
         rest.erase(rest.begin());  // too wide for the draw buffers: left out, as recordings do
         continue;
       }
@@ -72,7 +75,10 @@ class ProbedRun {
       const std::optional<std::size_t> thread = threads.find(thread_);
       if (!thread && run_.steps.empty()) throw Error(Outcome::nothing_matches, none_);
       reached_ = thread && threads.reachedAt(*thread);
-      if (!reached_) return {};
+      if (!reached_) {
+        left_out_.clear();
+        return {};
+      }
       std::size_t taken = 0;
       for (const WatchedValues& one : threads.values) {
         values.push_back({one.name, one.valueAt(*thread)});
@@ -136,6 +142,7 @@ class ProbedRun {
     step.function = shader_.functions[static_cast<std::size_t>(at(position).function)].name;
     step.depth = static_cast<int>(position.call_path.size());
     step.iteration = position.iterations;
+    step.left_out = std::exchange(left_out_, {});
     run_.steps.push_back(std::move(step));
     return run_.steps.back();
   }
@@ -243,6 +250,7 @@ class ProbedRun {
   std::string none_;  // what to say if the thread is not there
   ThreadRun run_;
   bool reached_ = false;
+  std::vector<std::string> left_out_;  // too wide for what was just looked at
   std::map<VariableId, Value> known_;
 };
 

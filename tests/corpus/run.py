@@ -88,12 +88,18 @@ class Excuses:
                      if fnmatch.fnmatch(entry["test"], pattern) and self.holds(proof)), None)
 
 
+def verdict_changed(entry: dict) -> bool:
+    """A test that ran out of its time says nothing: verify ends it."""
+    out_of_time = (entry.get("report") or {}).get("timeouts", 0)
+    return "verified" in entry and entry["verified"] != entry["bare"] and not out_of_time
+
+
 def problems(entry: dict) -> list[str]:
     """What is wrong with this test's run, in words."""
     if "verified" not in entry:
         return []
     found = []
-    if entry["verified"] != entry["bare"]:
+    if verdict_changed(entry):
         found.append(f"the test says '{entry['verified']}' under shadestep and '{entry['bare']}' without")
     report = entry["report"]
     if report is None:
@@ -118,7 +124,7 @@ def table(entries: list[dict]) -> str:
             row["tests"] += 1
             row["driver skips"] += entry["bare"] == "skip"
             row["s"] += entry["seconds"]
-            row["verdict changed"] += "verified" in entry and entry["verified"] != entry["bare"]
+            row["verdict changed"] += verdict_changed(entry)
             report = entry.get("report")
             if report is None:
                 continue

@@ -67,6 +67,30 @@ TEST(StageDialects, ClippedVertices) {
   EXPECT_EQ(readCsv(scratch.file("values.csv")), expected);
 }
 
+// As large as the constant indices ask for.
+TEST(StageDialects, ClipDistancesWithoutASize) {
+  const Scratch scratch;
+  const auto valuesAt = [&](const std::string& stage, const std::string& line) {
+    const Finished run =
+        debug(scratch, {"--stage", stage, "--at", line, "--print", "gl_ClipDistance", "--csv", "values.csv"},
+              {binary(kProgram)});
+    EXPECT_EQ(run.json()["check"]["outputs"], "identical") << stage;
+    EXPECT_TRUE(run.json()["check"]["left_out"].is_null()) << stage << ": they are compared, too";
+    std::vector<std::vector<float>> values;
+    for (const auto& row : readCsv(scratch.file("values.csv"))) {
+      std::vector<float>& last = values.emplace_back();
+      for (std::size_t i = 2; i < row.size(); ++i) last.push_back(std::stof(row[i]));
+    }
+    return values;
+  };
+  const std::vector<std::vector<float>> vertices = {{-1.5F, 4}, {-0.5F, 4}, {0.5F, 4}, {1.5F, 4}};
+  EXPECT_EQ(valuesAt("vertex", "8"), vertices);
+  const auto sums = valuesAt("geometry", "11");  // 0.25 of both numbers of each line
+  ASSERT_EQ(sums.size(), 4U);
+  for (std::size_t line = 0; line < 4; ++line)
+    EXPECT_EQ(sums[line].back(), 0.25F * static_cast<float>(line + (line + 1) % 4));
+}
+
 TEST(StageDialects, IndirectMultiDraws) {
   const Scratch scratch;
   const Finished run = debug(
