@@ -79,16 +79,18 @@ TEST(StageDialects, ClipDistancesWithoutASize) {
     std::vector<std::vector<float>> values;
     for (const auto& row : readCsv(scratch.file("values.csv"))) {
       std::vector<float>& last = values.emplace_back();
-      for (std::size_t i = 2; i < row.size(); ++i) last.push_back(std::stof(row[i]));
+      for (const std::string& cell : row) last.push_back(std::stof(cell));
     }
     return values;
   };
-  const std::vector<std::vector<float>> vertices = {{-1.5F, 4}, {-0.5F, 4}, {0.5F, 4}, {1.5F, 4}};
+  const std::vector<std::vector<float>> vertices = {
+      {0, 0, -1.5F, 4}, {1, 0, -0.5F, 4}, {2, 0, 0.5F, 4}, {3, 0, 1.5F, 4}};
   EXPECT_EQ(valuesAt("vertex", "8"), vertices);
   const auto sums = valuesAt("geometry", "11");  // 0.25 of both numbers of each line
   ASSERT_EQ(sums.size(), 4U);
   for (std::size_t line = 0; line < 4; ++line)
-    EXPECT_EQ(sums[line].back(), 0.25F * static_cast<float>(line + (line + 1) % 4));
+    EXPECT_EQ(sums[line],
+              (std::vector{static_cast<float>(line), 0.25F * static_cast<float>(line + (line + 1) % 4)}));
 }
 
 TEST(StageDialects, IndirectMultiDraws) {

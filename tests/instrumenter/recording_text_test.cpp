@@ -101,6 +101,20 @@ TEST(Recording, LeavesLargeValuesOut) {
             "enter 5\nleave 5\nstatement 6 a -b\nstatement 7 a\nstatement 8 b[n]\nstatement 9 color\n");
 }
 
+// A bound that the compiler does not know is hidden from its guesses; it knows an array's length.
+TEST(Recording, HidesOnlyUnknownBounds) {
+  const auto hides = [](const std::string& bound) {
+    const Shader shader = analysed(kHead + "void main() {\nfloat a[8], b[2][8];\nfor (int i = 0; i < " +
+                                   bound + "; i++)\na[i] = b[1][i];\ncolor = vec4(a[1]);\n}");
+    return recording(shader).text.find("|| sd_invocation < 0") != std::string::npos;
+  };
+  EXPECT_TRUE(hides("n"));
+  EXPECT_TRUE(hides("n + a.length()"));
+  EXPECT_FALSE(hides("8"));
+  EXPECT_FALSE(hides("a.length()"));
+  EXPECT_FALSE(hides("b[i].length()"));
+}
+
 TEST(Recording, HasTheWrittenPartOfWhatAllThreadsSee) {
   const Shader shader = analysed(R"(#version 450 core
 struct Cell { float mass; ivec2 at[2]; };
