@@ -271,7 +271,11 @@ void replaceInputs(Draft& draft, const std::vector<ThreadInput>& inputs) {
   for (const ThreadInput& input : inputs) {
     if (input.input == input.variable) continue;
     const std::string precision = input.type.basic == Basic::bool_ ? "" : draft.highp();
-    draft.declare(precision + frontend::glslName(input.type) + " " + input.variable + ";");
+    // The size behind the name: GLSL 1.10 takes it nowhere else.
+    const bool array = input.type.isArray();
+    const std::string size = array ? "[" + std::to_string(input.type.array.front()) + "]" : "";
+    draft.declare(precision + frontend::glslName(array ? input.type.element() : input.type) + " " +
+                  input.variable + size + ";");
   }
 
   declareInterpolation(draft);

@@ -478,6 +478,7 @@ TEST(IsolationText, DropsWhatVariablesCannotHave) {
       "#version 330 core\nuniform int i; in float gl_ClipDistance[2]; out vec4 o;\n"
       "void main() { o = vec4(gl_ClipDistance[i], gl_ClipDistance[0], 0.0, 1.0); }",
       "outvec4o;voidsd_main(){o=vec4(sd_ClipDistance[i],sd_ClipDistance[0],0.0,1.0);}");
+  holds("#version 110\nvoid main() { gl_FragColor = gl_TexCoord[0 + 1]; }", "vec4sd_TexCoord[2];");
   holds(
       "#version 330 core\nin Block { noperspective vec2 a; flat int b; } block; out vec4 o;\n"
       "void main() { o = block.a.xyxy; }",
@@ -490,11 +491,6 @@ TEST(IsolationText, DropsWhatVariablesCannotHave) {
         "structS{vec2a;};Ss;outvec4o;");
   holds("#version 400 core\nin vec2 a; out vec4 o;\nvoid main() { o = interpolateAtCentroid(a).xyxy; }",
         "o=sd_AtCentroid(a).xyxy;");
-}
-
-TEST(IsolationText, SaysWhatCannotBeIsolated) {
-  EXPECT_EQ(isolatedText("#version 120\nuniform int i;\nvoid main() { gl_FragColor = gl_TexCoord[i]; }"),
-            "The inputs cannot be replaced yet: gl_TexCoord is used without a literal index or a size.");
 }
 
 }  // namespace
