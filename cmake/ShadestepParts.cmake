@@ -17,6 +17,17 @@ target_compile_options(shadestep_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align
   -Wunused -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough)
 
+# SHADESTEP_SANITIZE (a list as -fsanitize= takes it) holds for the debugger's own side, from the front-end up, and for what
+# links it. The guest, what it shares with the debugger (wire), and the programs under debug stay as they are: a preloaded
+# library must come before a sanitizer's runtime, and what a user's program links is not ours to change.
+set(SHADESTEP_SANITIZE "" CACHE STRING "Sanitizers for the debugger's own side, such as address,undefined")
+add_library(shadestep_sanitized INTERFACE)
+if(SHADESTEP_SANITIZE)
+  target_compile_options(shadestep_sanitized INTERFACE -fsanitize=${SHADESTEP_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(shadestep_sanitized INTERFACE -fsanitize=${SHADESTEP_SANITIZE})
+endif()
+set(SHADESTEP_PLAIN_PARTS wire interceptor)
+
 # shadestep_check_uses(PART USES...): stops the configuration when PART may not know one of USES.
 function(shadestep_check_uses part)
   foreach(used IN LISTS ARGN)
@@ -45,6 +56,9 @@ function(shadestep_part name)
   add_library(shadestep-${name} STATIC ${PART_SOURCES})
   shadestep_export_headers(shadestep-${name} ${name})
   list(TRANSFORM PART_USES PREPEND shadestep- OUTPUT_VARIABLE targets)
+  if(NOT name IN_LIST SHADESTEP_PLAIN_PARTS)
+    list(APPEND targets shadestep_sanitized)
+  endif()
   target_link_libraries(shadestep-${name}
     PUBLIC ${targets} ${PART_LINKS}
     PRIVATE shadestep_warnings ${PART_PRIVATE_LINKS})
