@@ -44,6 +44,8 @@ void Debugger::leaveStop() {
   gl_state_.clear();
   textures_ = nullptr;
   texture_ = nullptr;
+  buffers_ = nullptr;
+  buffer_ = nullptr;
   forgetProcess();
   Q_EMIT callChanged();
   Q_EMIT stopChanged();
@@ -328,6 +330,15 @@ const StageSource* Debugger::source(session::Stage stage) const {
 std::optional<session::Check> Debugger::check() const {
   if (!values_) return std::nullopt;
   return values_->threads.check;
+}
+
+bool Debugger::unwritten(const QString& expression) const {
+  if (!values_) return false;
+  const std::string name = expression.toStdString();
+  if (values_->unwritten.count(name) > 0) return true;
+  const auto thread = pickedIndex();
+  return values_->unwritten_picked.count(name) > 0 && values_->followed == picked_ && thread &&
+         values_->threads.reachedAt(*thread);
 }
 
 int Debugger::runStep() const {

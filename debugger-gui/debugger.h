@@ -70,7 +70,9 @@ class Debugger : public QObject {
   const EmitsPtr& emits() const { return emits_; }
   const RunPtr& run() const { return run_; }
   const QString& runReason() const { return run_reason_; }  // why there is no run
-  int runStep() const;                                      // the place's step in the run; -1: not on it
+  // At the place, by the picked thread, or by any: what the driver holds there is no value.
+  bool unwritten(const QString& expression) const;
+  int runStep() const;  // the place's step in the run; -1: not on it
   const TargetPtr& target() const { return target_; }
   const LoopsPtr& loops() const { return loops_; }
   const ProfilePtr& profile() const { return profile_; }  // of this draw or an earlier one
@@ -78,6 +80,8 @@ class Debugger : public QObject {
   const GlState& glState() const { return gl_state_; }
   const TextureListPtr& textures() const { return textures_; }  // null: not asked for yet
   const TexturePtr& texture() const { return texture_; }
+  const BufferListPtr& buffers() const { return buffers_; }  // null: not asked for yet
+  const BufferPtr& buffer() const { return buffer_; }        // whose contents were asked for last
   const session::FragmentChoice& fragments() const { return fragments_; }
   QMap<int, Breakpoint> breakpoints() const { return breakpoints_.value(stage()); }  // by line
   const QStringList& watches() const { return watches_; }
@@ -137,6 +141,8 @@ class Debugger : public QObject {
   void askGlState();
   void askTextures();
   void askTexture(const QString& sampler, int level, int slice);  // and shows it
+  void askBuffers();
+  void askBuffer(const session::BoundBuffer&);
   void setFragments(const session::FragmentChoice&);
 
   // ---- the session file: program, draw, pixel, breakpoints, watches
@@ -160,6 +166,8 @@ class Debugger : public QObject {
   void profileChanged();
   void glStateChanged();
   void texturesChanged();
+  void buffersChanged();
+  void bufferChanged();
   void breakpointsChanged();
   void watchesChanged();
   void pictureChanged();
@@ -210,6 +218,8 @@ class Debugger : public QObject {
   GlState gl_state_;
   TextureListPtr textures_;
   TexturePtr texture_;
+  BufferListPtr buffers_;
+  BufferPtr buffer_;
   session::FragmentChoice fragments_;
   QMap<session::Stage, QMap<int, Breakpoint>> breakpoints_;
   QStringList watches_;

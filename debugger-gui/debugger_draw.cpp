@@ -76,6 +76,27 @@ void Debugger::askTexture(const QString& sampler, int level, int slice) {
       });
 }
 
+void Debugger::askBuffers() {
+  if (program_ != Program::stopped) return;
+  backend_.ask(
+      tr("Looking at the buffers"), "buffers", [](Debuggee& debuggee) { return debuggee.buffers(); },
+      [this](const BufferListPtr& buffers) {
+        buffers_ = buffers;
+        Q_EMIT buffersChanged();
+      });
+}
+
+void Debugger::askBuffer(const session::BoundBuffer& bound) {
+  if (program_ != Program::stopped) return;
+  backend_.ask(
+      tr("Reading buffer %1").arg(bound.buffer), "buffer",
+      [bound](Debuggee& debuggee) { return debuggee.buffer(bound); },
+      [this](const BufferPtr& buffer) {
+        buffer_ = buffer;
+        Q_EMIT bufferChanged();
+      });
+}
+
 void Debugger::setFragments(const session::FragmentChoice& choice) {
   if (program_ != Program::stopped || !place_) return;
   const session::Position position = place_->position;

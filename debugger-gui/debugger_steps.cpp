@@ -42,8 +42,8 @@ void Debugger::lookAgain() {
   for (const QString& name : expressions()) names.push_back(name.toStdString());
   backend_.ask(
       tr("Reading values"), "look",
-      [names, position = place_->position](Debuggee& debuggee) {
-        return std::pair(position, debuggee.look(names));
+      [names, position = place_->position, run = run_](Debuggee& debuggee) {
+        return std::pair(position, debuggee.look(names, run));
       },
       [this](const std::pair<session::Position, LookPtr>& found) {
         if (!place_ || place_->position != found.first || found.second->stage != stage()) return;
@@ -105,6 +105,7 @@ void Debugger::followRun() {
         run_ = found.first;
         run_reason_ = found.second;
         Q_EMIT runChanged();
+        if (run_) lookAgain();  // now it is known what the picked thread has written
       });
 }
 

@@ -113,6 +113,8 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   execute.read_captures = options.read_captures;
   execute.repeats = static_cast<std::uint32_t>(options.repeats);
   execute.covering_size = options.covering_size;
+  execute.plain_units = options.plain_units;
+  execute.plain_levels = options.plain_levels;
   execute.layer = state_->fragments.layer;
   execute.sample = state_->fragments.sample;
   execute.raster = raster(state_->fragments, options.provoking);

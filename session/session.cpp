@@ -308,10 +308,51 @@ std::vector<SampledTexture> Session::textures(const std::vector<SamplerName>& sa
     texture.lod_bias = told->lod_bias;
     texture.anisotropy = told->anisotropy;
     texture.base_level = told->base_level;
+    texture.samples = told->samples;
     for (const auto& size : told->levels) texture.levels.push_back({size->width, size->height, size->depth});
     textures.push_back(std::move(texture));
   }
   return textures;
+}
+
+std::vector<BoundBuffer> Session::buffers() {
+  const auto [reply, bulk] = state_->ask<wire::BuffersT>(wire::DescribeBuffersT{});
+  std::vector<BoundBuffer> buffers;
+  for (const auto& told : reply.buffers) {
+    BoundBuffer one{static_cast<BufferUse>(told->use),
+                    told->name,
+                    told->index,
+                    told->buffer,
+                    told->offset,
+                    told->bytes,
+                    told->reason,
+                    {},
+                    told->components,
+                    told->type,
+                    told->stride,
+                    told->normalized,
+                    told->divisor};
+    for (const auto& member : told->members)
+      one.members.push_back({member->name, member->type, member->offset, member->count, member->stride,
+                             member->matrix_stride, member->row_major, member->outer_count,
+                             member->outer_stride});
+    buffers.push_back(std::move(one));
+  }
+  return buffers;
+}
+
+std::vector<std::byte> Session::readBuffer(std::uint32_t buffer, std::uint64_t offset, std::uint64_t bytes) {
+  wire::ReadBufferT request;
+  request.buffer = buffer;
+  request.offset = offset;
+  request.bytes = bytes;
+  auto [reply, descriptor] = state_->ask<wire::BufferBytesT>(std::move(request));
+  const wire::SharedMemory bulk = wire::SharedMemory::map(std::move(descriptor));
+  if (reply.range == nullptr || reply.range->bytes != bytes || reply.range->offset > bulk.size() ||
+      bytes > bulk.size() - reply.range->offset)
+    throw Error(Outcome::failed, "the agent's answer does not fit its memory; report this as a bug");
+  const std::byte* const first = bulk.data() + reply.range->offset;
+  return {first, first + bytes};
 }
 
 void Session::select(Stage stage) {

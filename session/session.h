@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -165,6 +166,11 @@ struct ExecuteOptions {
   int covering_size = 64;  // with a Covering program
   // Not in replays of fragments: every repeat draws once per set, with these uniforms beside `uniforms`.
   std::vector<std::vector<Uniform>> sets;
+  // With a Covering program: texture units that are read without filter and comparison (OpenGL 3.3, ES 3.0);
+  // with `plain_levels`, which wants all levels to be there, at the levels asked for, else at the base level
+  // alone.
+  std::vector<int> plain_units;
+  bool plain_levels = false;
   Provoking provoking = Provoking::keep;  // of fragment shaders; the driver has to let choose (OpenGL 3.2)
 };
 
@@ -207,6 +213,38 @@ struct SampledTexture {
     int width = 1, height = 1, depth = 1;  // texels; depth: slices, layers or faces
   };
   std::vector<Size> levels;  // from the base level on, those that a lookup can read
+  int samples = 0;           // 0 = not multisampled
+};
+
+// Memory that a draw reads or writes through a buffer.
+enum class BufferUse { uniform_block, storage_block, atomic_counters, vertices, indices, commands, feedback };
+// A member of a block, in bytes as the driver laid it out.
+struct BlockMember {
+  std::string name;          // "light.colour", "weights[0]", "items[0].place"
+  std::uint32_t type = 0;    // GL_FLOAT_VEC3, ...
+  std::uint64_t offset = 0;  // from where the block begins
+  std::uint32_t count = 1;   // elements of an array; 0 = as many as there is room for
+  std::uint32_t stride = 0;  // from one to the next
+  std::uint32_t matrix_stride = 0;
+  bool row_major = false;
+  // Of the array of structures that it is in, of which its name is the first element's; 1 and 0 outside of
+  // one.
+  std::uint32_t outer_count = 1, outer_stride = 0;
+};
+struct BoundBuffer {
+  BufferUse use = BufferUse::uniform_block;
+  std::string name;                     // of the block or the vertex attribute
+  int index = 0;                        // of the binding or the vertex attribute
+  std::uint32_t buffer = 0;             // GL name; 0 = none
+  std::uint64_t offset = 0, bytes = 0;  // what is bound of it
+  std::string reason;                   // why there is nothing to read; empty if there is
+  std::vector<BlockMember> members;     // of blocks and counters, by their offsets
+  // Of vertices: how the attribute reads them, by GL's names.
+  int components = 0;
+  std::uint32_t type = 0;
+  int stride = 0;
+  bool normalized = false;
+  int divisor = 0;
 };
 
 struct Captured {
@@ -297,6 +335,10 @@ class Session {
 
   // In the order of the names.
   std::vector<SampledTexture> textures(const std::vector<SamplerName>&);
+  // Blocks, vertex attributes and other buffers of the draw. What stands in them is as before the draw.
+  std::vector<BoundBuffer> buffers();
+  // Throws cannot_debug where the buffer is not that large, or the program has mapped it.
+  std::vector<std::byte> readBuffer(std::uint32_t buffer, std::uint64_t offset, std::uint64_t bytes);
 
   // Throws cannot_debug, with the reason, if captures of the selected stage cannot work at this draw.
   void requireCapturable();

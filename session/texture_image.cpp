@@ -20,6 +20,11 @@ struct Sampler {
   SamplerKind kind;
 };
 
+// By our own sampler object nothing is compared.
+std::string uncompared(const std::string& type) {
+  return type.ends_with("Shadow") ? type.substr(0, type.size() - 6) : type;
+}
+
 std::vector<Sampler> samplersOf(const frontend::Shader& shader) {
   std::vector<Sampler> samplers;
   for (const frontend::Variable& variable : shader.variables) {
@@ -27,7 +32,7 @@ std::vector<Sampler> samplersOf(const frontend::Shader& shader) {
     if (variable.type.basic != frontend::Basic::opaque || variable.storage != frontend::Storage::uniform ||
         !kind)
       continue;
-    const std::string declared = variable.type.opaque_name + " " + variable.name;
+    const std::string declared = uncompared(variable.type.opaque_name) + " " + variable.name;
     if (variable.type.array.empty()) {
       samplers.push_back({variable.name, declared, variable.type.opaque_name, *kind});
     } else if (variable.type.array.size() == 1) {
@@ -54,58 +59,50 @@ std::uint32_t targetOf(const SamplerKind& kind) {
   throw Error(Outcome::cannot_debug, "the texture cannot be shown: " + reason);
 }
 
+// Texels that are read by a sampler object of our own.
+bool isPlain(const SamplerKind& kind) {
+  return kind.cube || kind.shadow;
+}
+
 // At pixel p of the target, as `texel`: a vec4, ivec4 or uvec4.
-std::string fetch(const Sampler& sampler) {
+std::string fetch(const Sampler& sampler, int samples) {
   const SamplerKind& kind = sampler.kind;
-  if (kind.cube) return "cubeTexel(p)";
+  if (kind.cube)
+    return "textureLod(" + sampler.uniform + ", " +
+           (kind.array ? "vec4(direction(p), float(sd_place.y / 6))" : "direction(p)") +
+           ", float(sd_place.x))";
   if (kind.buffer) return "texelFetch(" + sampler.uniform + ", p.x)";
-  if (kind.multisample) cannot("it is multisampled");
-  if (kind.shadow) cannot("its sampler compares");
   if (kind.rectangle) return "texelFetch(" + sampler.uniform + ", p)";
+  if (kind.multisample) {
+    const std::string count = std::to_string(std::max(samples, 1));
+    return "texelFetch(" + sampler.uniform + ", " +
+           (kind.array ? "ivec3(p, sd_place.y / " + count + ")" : "p") + ", sd_place.y % " + count + ")";
+  }
   const std::string coordinate = kind.axes == 1                 ? (kind.array ? "ivec2(p.x, p.y)" : "p.x")
                                  : kind.axes == 3 || kind.array ? "ivec3(p, sd_place.y)"
                                                                 : "p";
   return "texelFetch(" + sampler.uniform + ", " + coordinate + ", sd_place.x)";
 }
 
-// texelFetch reads no cube maps; gathering does without filtering too, at the base level. The direction leads
-// a quarter beside the texel's centre, inwards, so that rounding changes nothing of which four texels are
-// gathered.
-std::string cubeFetch(const Sampler& sampler) {
-  std::string text = std::string(sampler.type[0] == 'i'   ? "i"
-                                 : sampler.type[0] == 'u' ? "u"
-                                                          : "") +
-                     "vec4 cubeTexel(ivec2 p) {\n"
-                     "  int size = textureSize(" +
-                     sampler.uniform +
-                     ", 0).x;\n"
-                     "  bvec2 last = bvec2(size > 1 && p.x == size - 1, size > 1 && p.y == size - 1);\n"
-                     "  vec2 at = vec2(p) + 0.5 + vec2(last.x ? -0.25 : 0.25, last.y ? -0.25 : 0.25);\n"
-                     "  vec2 c = 2.0 * at / float(size) - 1.0;\n"
-                     "  int face = sd_place.y % 6;\n"
-                     "  vec3 d = face == 0   ? vec3(1.0, -c.y, -c.x)\n"
-                     "           : face == 1 ? vec3(-1.0, -c.y, c.x)\n"
-                     "           : face == 2 ? vec3(c.x, 1.0, c.y)\n"
-                     "           : face == 3 ? vec3(c.x, -1.0, -c.y)\n"
-                     "           : face == 4 ? vec3(c.x, -c.y, 1.0)\n"
-                     "                       : vec3(-c.x, -c.y, -1.0);\n"
-                     "  int which = last.x ? (last.y ? 1 : 2) : (last.y ? 0 : 3);\n";
-  const std::string direction = sampler.kind.array ? "vec4(d, float(sd_place.y / 6))" : "d";
-  std::string texel = std::string(sampler.type[0] == 'i' ? "i" : sampler.type[0] == 'u' ? "u" : "") + "vec4(";
-  for (int component = 0; component < 4; ++component)
-    texel += "textureGather(" + sampler.uniform + ", " + direction + ", " + std::to_string(component) +
-             ")[which]" + (component < 3 ? ", " : ")");
-  return text + "  return " + texel + ";\n}\n";
+// texelFetch reads no cube maps; a lookup without filter at the middle of a texel does.
+std::string cubeDirection(const Sampler& sampler) {
+  return "vec3 direction(ivec2 p) {\n"
+         "  vec2 c = 2.0 * (vec2(p) + 0.5) / float(textureSize(" +
+         sampler.uniform +
+         ", sd_place.x).x) - 1.0;\n"
+         "  int face = sd_place.y % 6;\n"
+         "  return face == 0   ? vec3(1.0, -c.y, -c.x)\n"
+         "         : face == 1 ? vec3(-1.0, -c.y, c.x)\n"
+         "         : face == 2 ? vec3(c.x, 1.0, c.y)\n"
+         "         : face == 3 ? vec3(c.x, -1.0, -c.y)\n"
+         "         : face == 4 ? vec3(c.x, -c.y, 1.0)\n"
+         "                     : vec3(-c.x, -c.y, -1.0);\n"
+         "}\n";
 }
 
-std::string versionLine(Session& session, bool gathers) {
+std::string versionLine(Session& session) {
   const DrawFacts& facts = session.facts();
   const frontend::Shader& shader = session.shader();
-  if (gathers) {
-    const bool can = facts.es ? facts.major * 10 + facts.minor >= 31 : facts.major >= 4;
-    if (!can) cannot("texels of a cube map need OpenGL 4.0 or OpenGL ES 3.1");
-    if (shader.version < (facts.es ? 310 : 400)) return facts.es ? "#version 310 es\n" : "#version 400\n";
-  }
   if (shader.profile == "es" || facts.es) {
     if (shader.version < 300) cannot("GLSL ES " + std::to_string(shader.version) + " has no texelFetch");
     return "#version " + std::to_string(shader.version) + " es\n";
@@ -128,17 +125,22 @@ bool takesBits(const std::string& version_line) {
 
 // The target is of floats. Whole numbers go through it half by half: every one of them is exact. So do the
 // bits of floats, in another order than the floats themselves (sd_place.w = 2), which prove each other.
-std::string fragmentText(Session& session, const Sampler& sampler) {
+std::string fragmentText(Session& session, const Sampler& sampler, int samples) {
   const bool whole = isWhole(sampler);
-  const std::string texel = fetch(sampler);
-  std::string text = versionLine(session, sampler.kind.cube);
+  const std::string texel = fetch(sampler, samples);
+  std::string text = versionLine(session);
   const bool bits = takesBits(text);
   if (text.find(" es") != std::string::npos)
-    text += "precision highp float;\nprecision highp int;\nprecision highp " + sampler.type + ";\n";
+    text +=
+        "precision highp float;\nprecision highp int;\nprecision highp " + uncompared(sampler.type) + ";\n";
   else if (session.shader().version < 140 && (sampler.kind.rectangle))
     text += "#extension GL_ARB_texture_rectangle : enable\n";
+  else if (session.shader().version < 400 && sampler.kind.cube && sampler.kind.array)
+    text += "#extension GL_ARB_texture_cube_map_array : enable\n";
+  else if (session.shader().version < 150 && sampler.kind.multisample)
+    text += "#extension GL_ARB_texture_multisample : enable\n";
   text += "uniform " + sampler.declared + ";\nuniform ivec4 sd_place;\nout vec4 sd_texel;\n" +
-          (sampler.kind.cube ? cubeFetch(sampler) : "") + "void main() {\n" +
+          (sampler.kind.cube ? cubeDirection(sampler) : "") + "void main() {\n" +
           "  ivec2 p = ivec2(gl_FragCoord.xy) * sd_place.z;\n";
   const std::string halves = "vec4(sd_place.w == 0 ? whole & 0xffffu : whole >> 16u)";
   if (whole)
@@ -151,8 +153,8 @@ std::string fragmentText(Session& session, const Sampler& sampler) {
   return text;
 }
 
-std::string vertexText(Session& session, bool gathers) {
-  return versionLine(session, gathers) +
+std::string vertexText(Session& session) {
+  return versionLine(session) +
          "void main() {\n"
          "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
          "}\n";
@@ -178,10 +180,26 @@ std::vector<SampledTexture> factsOf(Session& session, const std::vector<Sampler>
   return names.empty() ? std::vector<SampledTexture>() : session.textures(names);
 }
 
+// By a sampler object of our own where texels are not fetched. A lookup gets to other levels than the base
+// level only where all are there, which the program's filter has told.
+ExecuteOptions lookups(Session& session, const SamplerKind& kind, const SampledTexture& facts,
+                       bool above_base) {
+  ExecuteOptions options;
+  if (!isPlain(kind)) return options;
+  const DrawFacts& draw = session.facts();
+  if (!draw.has("GL_ARB_sampler_objects") && 10 * draw.major + draw.minor < (draw.es ? 30 : 33))
+    cannot("it takes sampler objects, which came with OpenGL 3.3 and OpenGL ES 3.0");
+  constexpr std::uint32_t kNearest = 0x2600, kLinear = 0x2601;
+  if (above_base && (facts.min_filter == kNearest || facts.min_filter == kLinear))
+    cannot("its filter reads the base level alone, and other levels need not be whole");
+  options.plain_units = {facts.unit};
+  options.plain_levels = above_base;
+  return options;
+}
+
 // What the program draws over the image, four words a texel.
 std::vector<std::uint32_t> drawn(Session& session, const Prepared& program, const TextureImage& image,
-                                 const std::vector<std::uint32_t>& place) {
-  ExecuteOptions options;
+                                 const std::vector<std::uint32_t>& place, ExecuteOptions options) {
   options.compare = false;
   options.read_outputs = true;
   options.read_captures = false;
@@ -214,6 +232,10 @@ std::vector<ShaderTexture> shaderTextures(Session& session) {
   return textures;
 }
 
+int slicesOf(const SampledTexture& facts, std::size_t level) {
+  return std::max(facts.levels[level].depth, 1) * std::max(facts.samples, 1);
+}
+
 TextureImage textureImage(Session& session, const std::string& uniform, int level, int slice) {
   const Fragments meanwhile(session);
   session.requireCapturable();
@@ -228,11 +250,12 @@ TextureImage textureImage(Session& session, const std::string& uniform, int leve
     throw Error(Outcome::nothing_matches, "'" + uniform + "' has the levels " +
                                               std::to_string(facts.base_level) + " to " +
                                               std::to_string(last));
-  if (sampler.kind.cube && level != facts.base_level) cannot("of a cube map only its base level can be read");
-  const SampledTexture::Size& size = facts.levels[static_cast<std::size_t>(level - facts.base_level)];
-  if (slice < 0 || slice >= std::max(size.depth, 1))
-    throw Error(Outcome::nothing_matches, "'" + uniform + "' has " + std::to_string(size.depth) +
+  const auto above = static_cast<std::size_t>(level - facts.base_level);
+  const SampledTexture::Size& size = facts.levels[above];
+  if (const int slices = slicesOf(facts, above); slice < 0 || slice >= slices)
+    throw Error(Outcome::nothing_matches, "'" + uniform + "' has " + std::to_string(slices) +
                                               " slices at level " + std::to_string(level));
+  const ExecuteOptions how_to_read = lookups(session, sampler.kind, facts, above > 0);
 
   TextureImage image;
   image.uniform = uniform;
@@ -246,12 +269,13 @@ TextureImage textureImage(Session& session, const std::string& uniform, int leve
   image.type.basic = sampler.type[0] == 'i'   ? frontend::Basic::int_
                      : sampler.type[0] == 'u' ? frontend::Basic::uint_
                                               : frontend::Basic::float_;
-  const std::string text = fragmentText(session, sampler);
-  const Prepared program = session.prepareCovering(text, vertexText(session, sampler.kind.cube));
+  const std::string text = fragmentText(session, sampler, facts.samples);
+  const Prepared program = session.prepareCovering(text, vertexText(session));
   const auto read = [&](int how) {
     return drawn(session, program, image,
                  {static_cast<std::uint32_t>(level - facts.base_level), static_cast<std::uint32_t>(slice),
-                  static_cast<std::uint32_t>(image.stride), static_cast<std::uint32_t>(how)});
+                  static_cast<std::uint32_t>(image.stride), static_cast<std::uint32_t>(how)},
+                 how_to_read);
   };
   const auto readHalves = [&] {
     std::vector<std::uint32_t> words = read(0);

@@ -40,7 +40,23 @@ class Writes {
     return around(position_.statement);
   }
 
+  // By the steps of one thread that came before.
+  bool before(const std::vector<Step>& steps, std::size_t step) const {
+    for (const frontend::CallId call : position_.call_path)
+      if (duringCall(call)) return true;
+    if ((position_.condition || position_.calls_done > 0) && own(at(position_.statement))) return true;
+    return std::any_of(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(step),
+                       [&](const Step& one) { return ran(one); });
+  }
+
  private:
+  bool ran(const Step& step) const {
+    if (step.statement == kNone || step.kind == Step::Kind::call || step.kind == Step::Kind::enter)
+      return false;
+    const Statement& one = at(step.statement);
+    const bool incremented = isLoop(one.kind) && !step.iteration.empty() && step.iteration.back() > 0;
+    return writes(one.changes) || writes(one.init_changes) || (incremented && writes(one.increment_changes));
+  }
   const Statement& at(StatementId id) const { return shader_.statements[static_cast<std::size_t>(id)]; }
   const frontend::Call& callAt(frontend::CallId id) const {
     return shader_.calls[static_cast<std::size_t>(id)];
@@ -116,21 +132,55 @@ class Writes {
 
 }  // namespace
 
-bool mayBeWritten(const frontend::Shader& shader, const Position& position, VariableId id) {
+namespace {
+
+// It has a value from the start, or other threads write it, too.
+bool isGiven(const frontend::Shader& shader, VariableId id) {
   using frontend::Storage;
   const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(id)];
-  const bool given = variable.storage == Storage::uniform || variable.storage == Storage::in ||
-                     variable.storage == Storage::buffer || variable.storage == Storage::shared ||
-                     variable.storage == Storage::constant || variable.parameter_in ||
-                     (variable.storage == Storage::builtin && !variable.written);
-  if (given || position.ended() || !mayBeUndefined(shader, id)) return true;
+  return variable.storage == Storage::uniform || variable.storage == Storage::in ||
+         variable.storage == Storage::buffer || variable.storage == Storage::shared ||
+         variable.storage == Storage::constant || variable.parameter_in ||
+         (variable.storage == Storage::builtin && !variable.written) || !mayBeUndefined(shader, id);
+}
+
+template <class Written>
+bool allOf(const frontend::Watch& watch, Written written) {
+  if (watch.variable != kNone) return written(watch.variable);
+  return std::all_of(watch.reads.begin(), watch.reads.end(), written);
+}
+
+}  // namespace
+
+bool mayBeWritten(const frontend::Shader& shader, const Position& position, VariableId id) {
+  if (position.ended() || isGiven(shader, id)) return true;
   return Writes(shader, position, id).before();
 }
 
 bool mayBeWritten(const frontend::Shader& shader, const Position& position, const frontend::Watch& watch) {
-  if (watch.variable != kNone) return mayBeWritten(shader, position, watch.variable);
-  return std::all_of(watch.reads.begin(), watch.reads.end(),
-                     [&](VariableId id) { return mayBeWritten(shader, position, id); });
+  return allOf(watch, [&](VariableId id) { return mayBeWritten(shader, position, id); });
+}
+
+bool hasWritten(const frontend::Shader& shader, const std::vector<Step>& steps, std::size_t step,
+                const Position& position, const frontend::Watch& watch) {
+  return allOf(watch, [&](VariableId id) {
+    return position.ended() || isGiven(shader, id) || Writes(shader, position, id).before(steps, step);
+  });
+}
+
+// A loop that is not begun is no step: it is where its condition is evaluated first.
+std::optional<std::size_t> stepAt(const std::vector<std::optional<Position>>& positions,
+                                  const Position& here) {
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i] == here) return i;
+  const auto begins = [&](const Position& one) {
+    return one.statement == here.statement && one.call_path == here.call_path &&
+           one.iterations.size() >= here.iterations.size() &&
+           std::equal(here.iterations.begin(), here.iterations.end(), one.iterations.begin());
+  };
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i] && begins(*positions[i])) return i;
+  return std::nullopt;
 }
 
 }  // namespace shadestep::session

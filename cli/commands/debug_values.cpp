@@ -1,11 +1,13 @@
 // The values of chosen variables at one place, for all threads of the draw.
 #include <iostream>
+#include <set>
 
 #include "cli/commands/debug.h"
 #include "profiler/pictures/files.h"
 #include "profiler/pictures/scatter_plot.h"
 #include "profiler/pictures/value_image.h"
 #include "session/hit_values.h"
+#include "session/own_way.h"
 #include "session/plan.h"
 #include "session/text.h"
 #include "session/values.h"
@@ -41,9 +43,11 @@ session::PlaceSelection placeOf(const DebugOptions& options) {
 // The one thread that was named beside the place.
 struct Picked {
   std::size_t number = 0;
-  std::string key;   // in JSON
-  std::string name;  // for a person
+  std::string key;                  // in JSON
+  std::string name;                 // for a person
+  std::set<std::string> unwritten = {};  // values that it has not written on its way
 };
+constexpr const char* kNotWritten = "it has not written it on its way here";
 
 std::optional<Picked> pickedBy(session::Session& session, const ThreadValues& threads,
                                const DebugOptions& options) {
@@ -53,6 +57,12 @@ std::optional<Picked> pickedBy(session::Session& session, const ThreadValues& th
   if (!wanted) return std::nullopt;
   const std::size_t found = session::requireThread(threads, *wanted);
   return Picked{found, "at_thread", identityText(threads, found)};
+}
+
+std::optional<session::ThreadName> nameOf(session::Session& session, const DebugOptions& options) {
+  if (options.pixel.empty()) return chosenThread(session.stage(), options, false);
+  const std::vector<int> pixel = parseIntegers(options.pixel, "--pixel", 2, 2);
+  return session::pixelName(pixel[0], pixel[1]);
 }
 
 Json asJson(const ThreadValues& threads, const std::optional<Picked>& picked) {
@@ -90,7 +100,10 @@ Json asJson(const ThreadValues& threads, const std::optional<Picked>& picked) {
     one["inf"] = inf;
     if (picked) {
       const std::size_t thread = picked->number;
-      one[picked->key] = threads.reachedAt(thread) ? toJson(watched.valueAt(thread)) : Json(nullptr);
+      const bool written = picked->unwritten.count(watched.name) == 0;
+      one[picked->key] =
+          threads.reachedAt(thread) && written ? toJson(watched.valueAt(thread)) : Json(nullptr);
+      if (!written) one[picked->key + "_no_value"] = kNotWritten;
     }
     values[watched.name] = std::move(one);
   }
@@ -130,8 +143,10 @@ void printText(const ThreadValues& threads, const DebugOptions& options,
     }
     if (picked) {
       std::cout << "  at " << picked->name << ": "
-                << (threads.reachedAt(picked->number) ? session::formatValue(watched.valueAt(picked->number))
-                                                      : "does not get there")
+                << (!threads.reachedAt(picked->number) ? "does not get there"
+                    : picked->unwritten.count(watched.name) > 0
+                        ? std::string("no value: ") + kNotWritten
+                        : session::formatValue(watched.valueAt(picked->number)))
                 << "\n";
     }
   }
@@ -221,6 +236,25 @@ void writeScatter(const std::string& path, const ThreadValues& threads, const De
   profiler::writeFile(path, profiler::drawScatterPlot(plot));
 }
 
+session::Position positionOf(const instrumenter::Probe& probe) {
+  session::Position position;
+  position.call_path = probe.call_path;
+  position.statement = probe.statement;
+  position.iterations = probe.iterations;
+  position.condition = probe.when == instrumenter::Probe::When::after;  // the statement itself has run
+  return position;
+}
+
+// What the picked thread has not written, though it is there.
+void findUnwritten(session::Session& session, const session::Position& position, const ThreadValues& threads,
+                   const session::ThreadName& name, Picked& picked) {
+  if (!threads.reachedAt(picked.number)) return;
+  session::OwnWay way(session, name);
+  for (const WatchedValues& watched : threads.values)
+    if (watched.no_value.empty() && !way.hasWritten(position, watched.name))
+      picked.unwritten.insert(watched.name);
+}
+
 // For one place a single probe is the cheapest.
 ThreadValues look(session::Session& session, const session::PlaceSelection& place,
                   const DebugOptions& options) {
@@ -240,7 +274,9 @@ int debugValues(session::Session& session, const Common& common, const DebugOpti
     throw session::Error(session::Outcome::usage,
                          "--image shows fragments, which have a place; take --csv F");
   if (!options.pixel.empty()) pixelIndex(session, options.pixel);  // throws before the work begins
-  const ThreadValues threads = look(session, place, options);
+  ThreadValues threads = look(session, place, options);
+  const session::Position position = positionOf(session::probeAt(session.shader(), place));
+  session::leaveOutUnwritten(session.shader(), position, threads);
   if (threads.reached == 0) {
     throw session::Error(session::Outcome::nothing_matches,
                          "none of the " + withThousands(threads.launched) + " threads gets to line " +
@@ -248,7 +284,8 @@ int debugValues(session::Session& session, const Common& common, const DebugOpti
                              (options.iteration.empty() ? "" : " in iteration " + options.iteration) +
                              "; 'shadestep loops' says how many iterations there are");
   }
-  const std::optional<Picked> picked = pickedBy(session, threads, options);
+  std::optional<Picked> picked = pickedBy(session, threads, options);
+  if (picked) findUnwritten(session, position, threads, *nameOf(session, options), *picked);
   if (!options.image.empty()) {
     for (const std::string& file : splitList(options.image)) writeImage(common.inOut(file), threads, options);
   }

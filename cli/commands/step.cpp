@@ -8,6 +8,7 @@
 #include "cli/common.h"
 #include "cli/fragment_options.h"
 #include "cli/thread_options.h"
+#include "session/own_way.h"
 #include "session/stepper.h"
 #include "session/values.h"
 
@@ -37,11 +38,15 @@ constexpr const char* kHelp =
     "restart      back to the start of main\n"
     "quit         end the program under debug\n";
 
+constexpr const char* kNotWritten = "the picked thread has not written it on its way here";
+
 // What a command found, as a document; `asText` says the same to a person.
 class Dialogue {
  public:
   Dialogue(session::Session& session, const std::optional<session::ThreadName>& thread, session::Plan plan)
-      : stepper_(session, thread, plan), picks_(thread) {}
+      : stepper_(session, thread, plan), picks_(thread) {
+    if (thread) way_.emplace(session, *thread);
+  }
 
   // Carries out a command; the empty one says where the threads are.
   Json carryOut(const std::string& line) {
@@ -143,7 +148,8 @@ class Dialogue {
   }
 
   Json values(const std::string& names) {
-    const session::ThreadValues threads = stepper_.look(splitList(names));
+    session::ThreadValues threads = stepper_.look(splitList(names));
+    session::leaveOutUnwritten(stepper_.shader(), stepper_.position(), threads);
     Json json = {{"threads", {{"launched", threads.launched}, {"reached", threads.reached}}},
                  {"check", toJson(threads.check)},
                  {"check_text", describe(threads.check)}};
@@ -155,6 +161,10 @@ class Dialogue {
       if (!watched.no_value.empty()) {
         one["no_value"] = watched.no_value;
         if (picks_) one["picked_text"] = "no value: " + watched.no_value;
+      } else if (picked && threads.reachedAt(*picked) &&
+                 !way_->hasWritten(stepper_.position(), watched.name)) {
+        one["picked_no_value"] = kNotWritten;
+        one["picked_text"] = std::string("no value: ") + kNotWritten;
       } else if (picked && threads.reachedAt(*picked)) {
         one["picked"] = toJson(watched.valueAt(*picked));
         one["picked_text"] = session::formatValue(watched.valueAt(*picked));
@@ -218,7 +228,8 @@ class Dialogue {
   }
 
   Stepper stepper_;
-  bool picks_;  // a thread is picked
+  bool picks_;                          // a thread is picked
+  std::optional<session::OwnWay> way_;  // its
 };
 
 // ---- for a person

@@ -57,7 +57,8 @@ class Debuggee {
   Place moveTo(const session::Position&);
   Place toLine(int line);
   Place choose(const std::string& side);
-  LookPtr look(const std::vector<std::string>& expressions);
+  // `run`: the picked thread's recorded way; null: not known.
+  LookPtr look(const std::vector<std::string>& expressions, const RunPtr& run = nullptr);
   RunPtr followPicked();
   OriginPtr origin(Pixel, session::Stage);  // of the pixel's fragment; the stage that is looked at stays
   EmitsPtr emits();                         // of the draw's geometry shader
@@ -69,6 +70,8 @@ class Debuggee {
   GlState glState();
   TextureListPtr textures();  // of the fragment shader
   TexturePtr texture(const std::string& uniform, int level, int slice);
+  BufferListPtr buffers();
+  BufferPtr buffer(const session::BoundBuffer&);
 
   // Any thread: asks what takes long to stop, and ends a wait for a program that does not get to where it
   // should, with the program.

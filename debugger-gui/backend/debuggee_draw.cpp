@@ -1,4 +1,6 @@
 // What the window asks of the whole draw.
+#include <algorithm>
+
 #include "debugger-gui/backend/debuggee.h"
 #include "debugger-gui/backend/thumbnail.h"
 #include "profiler/profile_files.h"
@@ -106,6 +108,19 @@ TextureListPtr Debuggee::textures() {
 
 TexturePtr Debuggee::texture(const std::string& uniform, int level, int slice) {
   return std::make_shared<session::TextureImage>(session::textureImage(atDraw(), uniform, level, slice));
+}
+
+BufferListPtr Debuggee::buffers() {
+  return std::make_shared<std::vector<session::BoundBuffer>>(atDraw().buffers());
+}
+
+BufferPtr Debuggee::buffer(const session::BoundBuffer& bound) {
+  auto view = std::make_shared<BufferView>();
+  view->bound = bound;
+  view->bytes =
+      atDraw().readBuffer(bound.buffer, bound.offset, std::min(bound.bytes, BufferView::kMostBytes));
+  view->values = session::blockValues(bound, view->bytes);
+  return view;
 }
 
 GlState Debuggee::glState() {

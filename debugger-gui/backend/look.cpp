@@ -21,13 +21,15 @@ session::ThreadValues Look::asked() const {
   return only;
 }
 
-LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
+LookPtr Debuggee::look(const std::vector<std::string>& expressions, const RunPtr& run) {
   session::Stepper& at = stepper();
   if (at.ended()) return std::make_shared<Look>(std::make_shared<const session::ThreadValues>());
   const instrumenter::Probe probe = session::probeAt(at.shader(), at.position());
   std::vector<std::string> wanted;
   std::vector<std::pair<std::string, std::string>> refused;
   std::set<std::string> unwritten;
+  std::set<std::string> unwritten_picked;
+  const auto step = run ? session::stepAt(run->positions, at.position()) : std::nullopt;
   for (const std::string& expression : expressions) {
     const frontend::WatchResult found = session::watchAt(at.shader(), probe, expression);
     if (!found.watch)
@@ -36,18 +38,23 @@ LookPtr Debuggee::look(const std::vector<std::string>& expressions) {
       unwritten.insert(expression);
     else
       wanted.push_back(expression);
+    if (found.watch && step &&
+        !session::hasWritten(at.shader(), run->run.steps, *step, at.position(), *found.watch))
+      unwritten_picked.insert(expression);
   }
   auto look = std::make_shared<Look>(at.lookShared(wanted));
   look->stage = picked_.stage;
   look->refused = std::move(refused);
   look->unwritten = std::move(unwritten);
+  look->unwritten_picked = std::move(unwritten_picked);
+  if (run) look->followed = run->picked;
   for (const std::string& name : wanted) {
     const auto& values = look->threads.values;
     const auto found =
         std::find_if(values.begin(), values.end(), [&](const auto& one) { return one.name == name; });
     if (found == values.end()) continue;
     if (found->no_value.empty())
-      look->values.push_back({*found, session::statistics(look->threads, *found)});
+      look->values.push_back({*found});
     else
       look->refused.emplace_back(name, found->no_value);
   }

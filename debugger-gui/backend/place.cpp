@@ -41,7 +41,10 @@ std::vector<ScopeEntry> scopeOf(const session::Stepper& stepper) {
     const frontend::Variable& variable = shader.variables[static_cast<std::size_t>(id)];
     const frontend::WatchResult found = session::watchAt(shader, probe, variable.name);
     if (!found.watch || found.watch->variable != id) continue;  // a sampler, or hidden by an inner name
-    entries.push_back({variable.name, frontend::glslName(variable.type), variable.storage,
+    // What of the built-in variables is written is an output: gl_FragColor, gl_Position.
+    const bool output = variable.storage == frontend::Storage::builtin && variable.written;
+    entries.push_back({variable.name, frontend::glslName(variable.type),
+                       output ? frontend::Storage::out : variable.storage,
                        std::find(changing.begin(), changing.end(), id) != changing.end(),
                        frontend::wordCount(variable.type) > kLargeWords});
   }

@@ -14,6 +14,7 @@
 #include "debugger-gui/backend/picked.h"
 #include "profiler/comparison.h"
 #include "profiler/profile.h"
+#include "session/buffers.h"
 #include "session/emits.h"
 #include "session/fragment_origin.h"
 #include "session/loops.h"
@@ -110,7 +111,13 @@ class Look {
  public:
   struct Value {
     const session::WatchedValues& watched;
-    std::vector<session::ComponentStatistics> statistics;
+    // A component each; worked out when they are asked for first, which is for few of many values. On the
+    // main thread.
+    const std::vector<session::ComponentStatistics>& statistics(const Look& look) const {
+      if (statistics_.empty()) statistics_ = session::statistics(look.threads, watched);
+      return statistics_;
+    }
+    mutable std::vector<session::ComponentStatistics> statistics_ = {};
   };
 
   explicit Look(std::shared_ptr<const session::ThreadValues> known)
@@ -121,6 +128,8 @@ class Look {
   std::vector<Value> values;                                 // what was asked for
   std::vector<std::pair<std::string, std::string>> refused;  // expression, why it has no value
   std::set<std::string> unwritten;                           // expressions of what no thread has written yet
+  std::set<std::string> unwritten_picked;  // of what this thread has not, but others perhaps:
+  Picked followed;                         // the picked one, if its way is known
 
   const Value* find(const QString& name) const;  // null: not among `values`
   session::ThreadValues asked() const;           // the threads with `values` alone
@@ -151,6 +160,17 @@ using EmitsPtr = std::shared_ptr<const session::GeometryEmits>;
 
 using TextureListPtr = std::shared_ptr<const std::vector<session::ShaderTexture>>;
 using TexturePtr = std::shared_ptr<const session::TextureImage>;
+
+// What stands in a buffer before the draw.
+struct BufferView {
+  static constexpr std::uint64_t kMostBytes = 64ULL << 20;  // more of a buffer is not read
+
+  session::BoundBuffer bound;
+  std::vector<std::byte> bytes;
+  session::BlockValues values;  // of a block
+};
+using BufferPtr = std::shared_ptr<const BufferView>;
+using BufferListPtr = std::shared_ptr<const std::vector<session::BoundBuffer>>;
 
 using LoopsPtr = std::shared_ptr<const session::LoopsReport>;
 

@@ -104,11 +104,13 @@ void ThreadModel::sort(int column, Qt::SortOrder order) {
 // NaN and threads that do not get here come last, whichever way it is sorted; unsorted they stand in the
 // order of their numbers.
 void ThreadModel::arrange() {
-  std::sort(rows_.begin(), rows_.end(), [&](std::size_t a, std::size_t b) {
+  const auto before = [&](std::size_t a, std::size_t b) {
     for (int column = 0; column < identityColumns() && who_.front().values != nullptr; ++column)
       if (number(a, column) != number(b, column)) return number(a, column) < number(b, column);
     return a < b;
-  });
+  };
+  // Fragments lie in their order from the start.
+  if (!std::is_sorted(rows_.begin(), rows_.end(), before)) std::sort(rows_.begin(), rows_.end(), before);
   for (int column = 0; column < columnCount(); ++column) {
     if (at(column).name != sorted_by_) continue;
     std::vector<std::pair<double, std::size_t>> keys;

@@ -151,6 +151,15 @@ QString VariableModel::textOf(const QModelIndex& row) const {
   return node.target.expression.isEmpty() ? node.name : node.target.expression + " = " + valueText(node);
 }
 
+// Not looked at unless it is asked for.
+bool VariableModel::isLarge(const Node& node) const {
+  if (!debugger_.place() || node.target.is_watch) return false;
+  const auto& scope = debugger_.place()->scope;
+  return std::any_of(scope.begin(), scope.end(), [&](const ScopeEntry& entry) {
+    return entry.large && QString::fromStdString(entry.name) == node.target.variable;
+  });
+}
+
 // ---- what stands in it
 
 const session::WatchedValues* VariableModel::valueOf(const LookPtr& look, const Node& node) const {
@@ -163,6 +172,7 @@ QString VariableModel::valueText(const Node& node) const {
   if (unwritten(node)) return tr("not written yet");
   const session::WatchedValues* value = valueOf(debugger_.values(), node);
   const auto thread = debugger_.pickedIndex();
+  if (value == nullptr && debugger_.values() && isLarge(node)) return tr("large; Enter shows it");
   if (value == nullptr || !thread) return {};
   if (!debugger_.values()->threads.reachedAt(*thread)) return tr("does not get here");
   if (node.target.component < 0) return QString::fromStdString(session::formatValue(value->valueAt(*thread)));
@@ -174,10 +184,8 @@ QString VariableModel::valueText(const Node& node) const {
       session::formatComponent(components[static_cast<std::size_t>(node.target.component)].basic, word));
 }
 
-// No thread has given it a value on the way here.
 bool VariableModel::unwritten(const Node& node) const {
-  const LookPtr& look = debugger_.values();
-  return look && look->unwritten.count(node.target.variable.toStdString()) > 0;
+  return debugger_.unwritten(node.target.variable);
 }
 
 bool VariableModel::changed(const Node& node) const {
@@ -206,10 +214,11 @@ QVariant VariableModel::range(const Node& node, bool high) const {
   const Look::Value* const found =
       debugger_.values() ? debugger_.values()->find(node.target.variable) : nullptr;
   if (found == nullptr) return {};
-  const auto& statistics = found->statistics;
-  const std::size_t component =
-      node.target.component < 0 ? 0 : static_cast<std::size_t>(node.target.component);
-  if ((node.target.component < 0 && statistics.size() != 1) || statistics[component].finite == 0) return {};
+  const bool single = frontend::components(found->watched.type).size() == 1;
+  if (node.target.component < 0 && !single) return {};
+  const auto component = static_cast<std::size_t>(std::max(node.target.component, 0));
+  const auto& statistics = found->statistics(*debugger_.values());
+  if (statistics[component].finite == 0) return {};
   const double number = high ? statistics[component].max : statistics[component].min;
   const frontend::Basic basic = frontend::components(found->watched.type)[component].basic;
   return QString::fromStdString(basic == frontend::Basic::float_
@@ -249,7 +258,9 @@ QVariant VariableModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::ForegroundRole && (is_group || unwritten(node))) return theme().faint;
   if (role == Qt::ToolTipRole && !node.refused.isEmpty()) return node.refused;
   if (role == Qt::ToolTipRole && unwritten(node) && index.column() == kValue)
-    return tr("No thread has written it on the way here: what the driver holds there is no value");
+    return debugger_.values()->unwritten.count(node.target.variable.toStdString()) > 0
+               ? tr("No thread has written it on the way here: what the driver holds there is no value")
+               : tr("The picked thread has not written it on its way here; others may have");
   if (role == Qt::ToolTipRole && !is_group && index.column() == kValue) return valueText(node);
   return {};
 }

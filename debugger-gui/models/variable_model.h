@@ -40,6 +40,7 @@ class VariableModel : public QAbstractItemModel {
   std::unique_ptr<Node> build() const;
   QString valueText(const Node&) const;
   bool unwritten(const Node&) const;
+  bool isLarge(const Node&) const;
   bool changed(const Node&) const;
   const session::WatchedValues* valueOf(const LookPtr&, const Node&) const;
   QVariant range(const Node&, bool high) const;

@@ -261,9 +261,12 @@ void PicturePanel::refresh() {
   listSources();
   const QString& name = debugger_.picture().name;
   const bool unwritten = debugger_.values() && debugger_.values()->unwritten.count(name.toStdString()) > 0;
-  view_->setNothing(name.isEmpty() ? tr("Nothing to show here yet")
-                    : unwritten    ? tr("%1 is not written yet").arg(name)
-                                   : tr("%1 has no value here").arg(name));
+  const bool dispatch = debugger_.source(session::Stage::compute) != nullptr;
+  view_->setNothing(name.isEmpty() && dispatch
+                        ? tr("A dispatch leaves no picture: show a variable over its threads")
+                    : name.isEmpty() ? tr("Nothing to show here yet")
+                    : unwritten      ? tr("%1 is not written yet").arg(name)
+                                     : tr("%1 has no value here").arg(name));
   // There are many pixels: the picture is made when something else is to be seen.
   const Shown now = shown();
   const auto made_of = std::tuple(debugger_.picture(), now.values, now.ways, theme().no_thread.rgb());

@@ -110,7 +110,9 @@ RunPanel::RunPanel(Debugger& debugger, QWidget* parent)
           [this](const QModelIndex& index) { debugger_.moveToStep(index.row()); });
   connect(table_, &QTableView::activated, this,
           [this](const QModelIndex& index) { debugger_.moveToStep(index.row()); });
-  for (const auto signal : {&Debugger::runChanged, &Debugger::pickedChanged, &Debugger::stopChanged})
+  // Of values: a change of the theme tells of them.
+  for (const auto signal :
+       {&Debugger::runChanged, &Debugger::pickedChanged, &Debugger::stopChanged, &Debugger::valuesChanged})
     connect(&debugger_, signal, this, &RunPanel::refresh);
   connect(&debugger_, &Debugger::placeChanged, this, [this] {
     model_.refreshPlace();
@@ -121,14 +123,14 @@ RunPanel::RunPanel(Debugger& debugger, QWidget* parent)
 
 void RunPanel::refresh() {
   model_.refresh();
+  const RunPtr& run = debugger_.run();
+  check_->setCheck(run ? std::optional(run->run.check) : std::nullopt);
   const QString name = debugger_.pickedName();
   if (name.isEmpty())
     return summary_->setText(
         debugger_.stage() == session::Stage::fragment
             ? tr("Click a pixel in the picture: its thread's whole way is recorded here.")
             : tr("Choose a row in Threads: its thread's whole way is recorded here."));
-  const RunPtr& run = debugger_.run();
-  check_->setCheck(run ? std::optional(run->run.check) : std::nullopt);
   if (!run) {
     return summary_->setText(debugger_.runReason().isEmpty() ? tr("No recording of %1 yet").arg(name)
                                                              : debugger_.runReason());

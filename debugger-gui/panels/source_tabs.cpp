@@ -137,7 +137,7 @@ QString SourceTabs::describe(const QString& expression) const {
   if (!look) return {};
   QString variable = expression;
   while (!variable.isEmpty()) {
-    if (look->unwritten.count(variable.toStdString()) > 0)
+    if (debugger_.unwritten(variable))
       return QString("<b>%1</b>&nbsp; %2").arg(variable, tr("not written yet"));
     if (const Look::Value* const found = look->find(variable)) {
       const session::WatchedValues& value = found->watched;

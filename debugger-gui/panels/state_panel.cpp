@@ -33,6 +33,7 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
       textures_(new QTreeWidget),
       level_(new QSpinBox),
       slice_(new QSpinBox),
+      buffers_(new BuffersPage(debugger)),
       alpha_(switchBox()),
       depth_(switchBox()),
       stencil_(switchBox()),
@@ -76,6 +77,7 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
   tabs_->setDocumentMode(true);
   tabs_->addTab(state, tr("State"));
   tabs_->addTab(makeTextures(), tr("Textures"));
+  tabs_->addTab(buffers_, tr("Buffers"));
   columns->addWidget(tabs_, 1);
   columns->addLayout(tests);
 
@@ -126,6 +128,7 @@ void StatePanel::ask() {
   alpha_->setEnabled(!stop->facts.core && !stop->facts.es);
   if (!isVisible()) return;
   if (tabs_->currentIndex() == kState && debugger_.glState().empty()) debugger_.askGlState();
+  if (tabs_->currentIndex() == kBuffers) return buffers_->ask();
   if (tabs_->currentIndex() != kTextures || debugger_.textures()) return;
   textures_->clear();
   if (const StageSource* fragments = debugger_.source(session::Stage::fragment);
@@ -142,6 +145,7 @@ void StatePanel::refreshTextures() {
       const auto& base = facts.levels.front();
       size = QString("%1 × %2").arg(base.width).arg(base.height);
       if (base.depth > 1) size += QString(" × %1").arg(base.depth);
+      if (facts.samples > 0) size += tr(", %n samples", "", facts.samples);
     }
     textures_->addTopLevelItem(
         new QTreeWidgetItem({QString::fromStdString(facts.uniform), QString::fromStdString(one.type),
@@ -158,22 +162,32 @@ void StatePanel::chooseTexture() {
   if (chosen.facts.levels.empty()) return;
   const QSignalBlocker quiet_level(level_);
   const QSignalBlocker quiet_slice(slice_);
-  const int depth = chosen.facts.levels.front().depth;
   level_->setRange(chosen.facts.base_level,
                    chosen.facts.base_level + static_cast<int>(chosen.facts.levels.size()) - 1);
   level_->setValue(chosen.facts.base_level);
   const bool cube = chosen.type.find("Cube") != std::string::npos;
-  slice_->setPrefix(cube ? tr("face ") : tr("slice "));
-  slice_->setToolTip(cube ? tr("+x, -x, +y, -y, +z, -z; of an array of cube maps six of each") : QString());
-  if (cube) level_->setMaximum(level_->minimum());
-  slice_->setRange(0, std::max(depth, 1) - 1);
-  slice_->setValue(chosen.type.find("3D") != std::string::npos ? depth / 2 : 0);
+  const bool several = chosen.facts.samples > 0;
+  slice_->setPrefix(cube ? tr("face ") : several ? tr("sample ") : tr("slice "));
+  slice_->setToolTip(cube      ? tr("+x, -x, +y, -y, +z, -z; of an array of cube maps six of each")
+                     : several ? tr("of an array the samples of one layer after those of another")
+                               : QString());
+  const int slices = session::slicesOf(chosen.facts, 0);
+  slice_->setRange(0, slices - 1);
+  slice_->setValue(chosen.type.find("3D") != std::string::npos ? slices / 2 : 0);
   readTexture();
 }
 
+// A volume's levels have fewer and fewer slices.
 void StatePanel::readTexture() {
+  const int row = textures_->indexOfTopLevelItem(textures_->currentItem());
+  if (row < 0 || !debugger_.textures()) return;
+  const session::SampledTexture& facts = (*debugger_.textures())[static_cast<std::size_t>(row)].facts;
+  const auto above = static_cast<std::size_t>(std::max(level_->value() - facts.base_level, 0));
+  if (above >= facts.levels.size()) return;
+  const QSignalBlocker quiet(slice_);
+  slice_->setMaximum(session::slicesOf(facts, above) - 1);
   const QTreeWidgetItem* item = textures_->currentItem();
-  if (item != nullptr) debugger_.askTexture(item->text(0), level_->value(), slice_->value());
+  debugger_.askTexture(item->text(0), level_->value(), slice_->value());
 }
 
 void StatePanel::refresh() {

@@ -1,5 +1,5 @@
-// The GL state and the textures at the stopped draw, and which fragment tests the debugger's replays use
-// (thesis 7.1.3).
+// The GL state, the textures and the buffers at the stopped draw, and which fragment tests the debugger's
+// replays use (thesis 7.1.3).
 #pragma once
 
 #include <QCheckBox>
@@ -10,6 +10,7 @@
 #include <QTreeWidget>
 
 #include "debugger-gui/debugger.h"
+#include "debugger-gui/panels/buffers_page.h"
 
 namespace shadestep::gui {
 
@@ -17,9 +18,10 @@ class StatePanel : public QWidget {
   Q_OBJECT
  public:
   explicit StatePanel(Debugger&, QWidget* parent = nullptr);
-  enum Tab { kState, kTextures };
+  enum Tab { kState, kTextures, kBuffers };
   void showTab(Tab tab) { tabs_->setCurrentIndex(tab); }
   QTreeWidget& textures() { return *textures_; }
+  BuffersPage& buffers() { return *buffers_; }
 
  protected:
   void showEvent(QShowEvent*) override;
@@ -40,6 +42,7 @@ class StatePanel : public QWidget {
   QTabWidget* tabs_;
   QTreeWidget* textures_;
   QSpinBox *level_, *slice_;
+  BuffersPage* buffers_;
   QComboBox *alpha_, *depth_, *stencil_, *blend_;
   QSpinBox *layer_, *sample_;
   QCheckBox* clear_;

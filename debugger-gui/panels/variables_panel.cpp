@@ -30,7 +30,7 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setAccessibleName(tr("Variables"));
   tree_->header()->setStretchLastSection(true);
-  for (const auto& [column, width] : {std::pair{0, 106}, {1, 196}, {2, 70}, {3, 70}})
+  for (const auto& [column, width] : {std::pair{0, 136}, {1, 190}, {2, 56}, {3, 62}})
     tree_->setColumnWidth(column, width);
 
   layOutPage(*this, {expression_, check_}, tree_);
@@ -69,6 +69,7 @@ void VariablesPanel::refresh() {
   for (int group = 0; group < model_.rowCount(); ++group) {
     const QModelIndex group_index = model_.index(group, 0);
     tree_->setExpanded(group_index, true);
+    tree_->setFirstColumnSpanned(group, {}, true);
     for (int row = 0; row < model_.rowCount(group_index); ++row) {
       const QModelIndex index = model_.index(row, 0, group_index);
       const QString expression = model_.targetAt(index).expression;

@@ -40,7 +40,7 @@ void Histogram::show(const LookPtr& look, const QString& name, int component,
   const auto components = frontend::components(value->type);
   const auto which = static_cast<std::size_t>(std::max(component, 0));
   if (which >= components.size()) return;
-  const auto& statistics = found->statistics[which];
+  const auto& statistics = found->statistics(*look)[which];
   title_ = name + QString::fromStdString(statistics.access);
   note_ = tr("%1 threads").arg(QString::fromStdString(session::withThousands(threads.reached)));
   if (statistics.nan > 0) note_ += tr(", %1 NaN").arg(statistics.nan);

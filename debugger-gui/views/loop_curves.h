@@ -19,6 +19,8 @@ class LoopCurves : public QWidget {
  public:
   explicit LoopCurves(QWidget* parent = nullptr);
   void show(std::optional<LoopCurve> now, std::vector<LoopCurve> before);
+  const std::optional<LoopCurve>& now() const { return now_; }
+  const std::vector<LoopCurve>& before() const { return before_; }
   QSize sizeHint() const override { return {420, 180}; }
 
  protected:

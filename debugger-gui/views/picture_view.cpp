@@ -287,7 +287,8 @@ void PictureView::paintValues(QPainter& painter, const QRect& pixels) {
   const int lines = picture_->colors.empty() ? picture_->components : 1;
   const double size = scale_ / (lines + 1.5);
   constexpr double kSmallest = 8, kLargest = 13;  // screen pixels
-  if (size < kSmallest) return;
+  constexpr int kMostLines = 6000;                // more take longer than a redraw may
+  if (size < kSmallest || pixels.width() * pixels.height() * lines > kMostLines) return;
   QFont font = monospaced();
   font.setPixelSize(static_cast<int>(std::min(size, kLargest)));
   ValueGlyphs glyphs(font);

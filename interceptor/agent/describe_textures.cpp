@@ -94,6 +94,7 @@ void describeLevels(GLenum target, const Parameters& parameters, wire::SampledTe
   for (GLint level = texture.base_level; level <= std::max(last, texture.base_level); ++level) {
     const guard::TextureLevel now = guard::boundLevel(target, level);
     if (now.width <= 0) break;
+    texture.samples = now.samples;
     texture.levels.push_back(sizeOf(now));
     if (now.width <= 1 && now.height <= 1 && (!volume || now.depth <= 1)) return;  // the smallest there is
     if (level == last) return;

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <set>
 
+#include "interceptor/agent/describe_buffers.h"
 #include "interceptor/agent/describe_textures.h"
 #include "interceptor/agent/executed.h"
 #include "interceptor/agent/query_pause.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/fragment_guards.h"
+#include "interceptor/guard/plain_samplers.h"
 #include "interceptor/guard/state_digest.h"
 #include "interceptor/replay/writable.h"
 
@@ -82,6 +84,12 @@ Reply Stop::answer(const wire::MessageT& request) {
     reply = replied(describeState());
   } else if (const wire::DescribeTexturesT* textures = request.body.AsDescribeTextures()) {
     reply = success(describeTextures(facts(), *textures));
+  } else if (request.body.AsDescribeBuffers() != nullptr) {
+    reply = replied(describeBuffers(facts()));
+  } else if (const wire::ReadBufferT* read = request.body.AsReadBuffer()) {
+    wire::SharedMemory bulk;
+    reply = replied(readBuffer(facts(), *read, bulk));
+    if (reply.message.body.AsBufferBytes() != nullptr) reply.bulk = std::move(bulk);
   } else if (const wire::PrepareT* prepare_request = request.body.AsPrepare()) {
     reply = replied(prepare(*prepare_request));
   } else if (const wire::ExecuteT* execute_request = request.body.AsExecute()) {
@@ -319,6 +327,7 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
     }
     if (Refusal refusal = replay::useCopy(copy, request.uniforms); !refusal.text.empty()) return refusal;
     if (Refusal refusal = resetStorage(storage_, copy, request); !refusal.text.empty()) return refusal;
+    const guard::PlainSamplersGuard samplers(request.plain_units, request.plain_levels);
     const std::size_t sets = std::max<std::size_t>(request.sets.size(), 1);
     CpuTime cpu;
     for (std::size_t i = 0; i < std::max(request.repeats, 1U) * sets; ++i) {

@@ -31,7 +31,8 @@ class Stop {
   explicit Stop(const calls::DrawCall&);
 
   wire::StoppedT announcement(std::uint64_t frame, std::uint64_t draw) const;
-  // Answers Describe, DescribeState, DescribeTextures, Prepare, Execute and Release; Failed to anything else.
+  // Answers Describe, DescribeState, DescribeTextures, DescribeBuffers, ReadBuffer, Prepare, Execute and
+  // Release; Failed to anything else.
   Reply answer(const wire::MessageT& request);
 
  private:

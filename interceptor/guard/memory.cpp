@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "interceptor/dispatch/dispatch.h"
+#include "interceptor/guard/buffer_bytes.h"
 #include "interceptor/guard/errors.h"
 
 namespace shadestep::guard {
@@ -17,40 +18,6 @@ GLuint binding(GLenum name) {
   GLint value = 0;
   gl().GetIntegerv(name, &value);
   return static_cast<GLuint>(value);
-}
-
-// The buffer bindings of copies.
-class CopyBindingGuard {
- public:
-  CopyBindingGuard()
-      : read_(binding(GL_COPY_READ_BUFFER_BINDING)), write_(binding(GL_COPY_WRITE_BUFFER_BINDING)) {}
-  ~CopyBindingGuard() {
-    gl().BindBuffer(GL_COPY_READ_BUFFER, read_);
-    gl().BindBuffer(GL_COPY_WRITE_BUFFER, write_);
-  }
-  CopyBindingGuard(const CopyBindingGuard&) = delete;
-  CopyBindingGuard& operator=(const CopyBindingGuard&) = delete;
-
- private:
-  GLuint read_, write_;
-};
-
-void copyBytes(GLuint from, GLint64 from_offset, GLuint to, GLint64 to_offset, GLint64 bytes) {
-  gl().BindBuffer(GL_COPY_READ_BUFFER, from);
-  gl().BindBuffer(GL_COPY_WRITE_BUFFER, to);
-  gl().CopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(from_offset),
-                         static_cast<GLintptr>(to_offset), static_cast<GLsizeiptr>(bytes));
-}
-
-// A buffer of the agent's own; bound for writing copies. 0: no memory.
-GLuint makeBuffer(GLint64 bytes) {
-  GLuint buffer = 0;
-  gl().GenBuffers(1, &buffer);
-  gl().BindBuffer(GL_COPY_WRITE_BUFFER, buffer);
-  gl().BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
-  if (!clearErrors()) return buffer;
-  gl().DeleteBuffers(1, &buffer);
-  return 0;
 }
 
 // An array texture of as many texels of the same number of bits: copies between the two keep every bit
@@ -241,7 +208,7 @@ Refusal WritableMemory::read(std::byte* destination) const {
   const std::vector<Section> all = sections();
   std::size_t next = 0;
   for (const BufferRange& range : ranges_) {
-    if (!readRange(range, destination)) return noMemoryFor(range.name);
+    if (!readBytes(range.buffer, range.offset, range.bytes, destination)) return noMemoryFor(range.name);
     destination += all[next++].bytes;
   }
   for (const Image& image : images_) {
@@ -249,18 +216,6 @@ Refusal WritableMemory::read(std::byte* destination) const {
     destination += all[next++].bytes;
   }
   return {};
-}
-
-// By way of a buffer of the agent's own, because the program may have mapped its buffer for good.
-bool WritableMemory::readRange(const BufferRange& range, std::byte* destination) const {
-  const GLuint buffer = makeBuffer(range.bytes);
-  if (buffer == 0) return false;
-  copyBytes(range.buffer, range.offset, buffer, 0, range.bytes);
-  const void* mapped =
-      gl().MapBufferRange(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(range.bytes), GL_MAP_READ_BIT);
-  if (mapped != nullptr) std::memcpy(destination, mapped, static_cast<std::size_t>(range.bytes));
-  gl().DeleteBuffers(1, &buffer);  // which unmaps it
-  return mapped != nullptr;
 }
 
 void WritableMemory::readImage(const Image& image, std::byte* destination) const {

@@ -59,7 +59,6 @@ class WritableMemory {
   Refusal saveBinding(GLenum target, GLenum start, GLenum size, GLuint index, const std::string& name);
   Refusal saveRange(BufferRange);
   Refusal saveImage(GLuint unit);
-  bool readRange(const BufferRange&, std::byte*) const;
   void readImage(const Image&, std::byte*) const;
   std::size_t texelBytes(const Image&) const;
 

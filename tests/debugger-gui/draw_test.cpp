@@ -4,7 +4,6 @@
 
 #include <QFile>
 #include <QTemporaryDir>
-#include <random>
 
 #include "window.h"
 
@@ -183,74 +182,6 @@ TEST(Draw, ASessionComesBack) {
   EXPECT_TRUE(window.debugger().breakpoints().contains(40));
   EXPECT_TRUE(window.debugger().watches().contains("position.x"));
   EXPECT_FALSE(window.shown("position.x").isEmpty());
-}
-
-// What a user might do, in any order: nothing crashes, and every value shown passes its check.
-TEST(Draw, TakesTwoHundredRandomActions) {
-  const char* const given = std::getenv("SHADESTEP_GUI_SEED");
-  const unsigned seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 1;
-  SCOPED_TRACE("SHADESTEP_GUI_SEED=" + std::to_string(seed));
-  std::mt19937 random(seed);
-  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  Window window;
-  Debugger& debugger = window.debugger();
-  window.start({binary("raycaster"), "--size", "32", "--step", "0.05", "--frames", "100000"});
-  const char* const steps[] = {"over",     "into",      "out",       "back",           "back-into",
-                               "back-out", "run",       "run-back",  "next-iteration", "leave-loop",
-                               "restart",  "next-draw", "next-frame"};
-  const auto act = [&](int which) {
-    if (which < 22) {
-      QAction* action = window->action(steps[which % 13]);
-      if (action->isEnabled()) action->trigger();
-    } else if (which < 25) {
-      debugger.pick(gui::Pixel{below(32), below(32)});
-    } else if (which == 25) {
-      debugger.toggleBreakpoint(1 + below(60));
-    } else if (which == 26) {
-      debugger.addWatch(QStringList({"dst", "dst.rgb", "i", "no such", "pos.x", "gl_FragCoord"})[below(6)]);
-    } else if (which == 27 && debugger.values() && !debugger.values()->values.empty()) {
-      const auto& values = debugger.values()->values;
-      const auto& value = values[static_cast<std::size_t>(below(static_cast<int>(values.size())))];
-      debugger.show({gui::PictureSource::Kind::value, QString::fromStdString(value.watched.name), 0});
-    } else if (which == 28 && debugger.place() && !debugger.place()->sides.empty()) {
-      debugger.show({gui::PictureSource::Kind::outcome, {}, 0});
-      debugger.choose(below(2) == 0 ? "true" : "false");
-    } else if (which == 29) {
-      debugger.setIteration(0, below(30));
-    } else if (which == 30) {
-      window->picture().view().setScale(0.5 + below(80));
-      window->grab();
-    } else if (which == 31) {
-      debugger.askLoops();
-    } else if (which == 32) {
-      window->dock(QStringList({"run", "threads", "loops", "cost", "calls", "state", "variables"})[below(7)])
-          ->raise();
-    } else if (which == 33) {
-      debugger.cancel();
-    } else if (which == 34) {
-      debugger.selectStage(below(2) == 0 ? session::Stage::vertex : session::Stage::fragment);
-    } else if (which == 35) {
-      debugger.pick(session::ThreadName{{"vertex", below(40)}, {"instance", 0}});
-    } else if (which == 36) {
-      debugger.askOrigin(session::Stage::vertex);
-    } else if (which == 37) {
-      window->threads().showTab(static_cast<gui::ThreadsPanel::Tab>(below(2)));
-      window->threads().table().sortByColumn(below(4),
-                                             below(2) == 0 ? Qt::AscendingOrder : Qt::DescendingOrder);
-    } else if (which == 38) {
-      window->picture().showInSpace(below(2) == 0);
-      window->picture().landscape().turnTo(below(360), below(90));
-    }
-  };
-  for (int i = 0; i < 200; ++i) {
-    act(below(39));
-    if (below(3) == 0) window.settle();  // else the next comes while this one is under way
-    if (debugger.check() && debugger.check()->compared_at_all) {
-      EXPECT_TRUE(debugger.check()->identical());
-    }
-    if (debugger.program() == Debugger::Program::ended) window.start(smallRaycaster());
-  }
-  window.settle();
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 
 using gui::Debugger;
 
-constexpr const char* kDocks[] = {"frames", "stack", "picture", "variables", "run", "threads", "loops", "cost", "calls", "state"};
+constexpr const char* kDocks[] = {"frames",  "stack", "picture", "variables", "run",
+                                  "threads", "loops", "cost",    "calls",     "state"};
 
 QString nameOf(const QWidget& widget) {
   QStringList path;

@@ -140,8 +140,23 @@ void takeGeometry(const QString& directory) {
   save(window, directory, "geometry");
 }
 
+// A program with blocks.
+void takeBuffers(const QString& directory) {
+  Window window;
+  window->resize(1280, 800);
+  window.start({binary("programs/memory-blocks")});
+  window->dock("state")->raise();
+  auto* state = window->dock("state")->findChild<gui::StatePanel*>();
+  state->showTab(gui::StatePanel::kBuffers);
+  window.settle();
+  state->buffers().list().setCurrentItem(state->buffers().list().topLevelItem(0));
+  window.settle();
+  save(window, directory, "buffers");
+}
+
 void takeAll(const QString& directory) {
   takeSession(directory);
+  takeBuffers(directory);
   takeGeometry(directory);
 }
 

@@ -19,12 +19,15 @@ uniform sampler3D volume;
 uniform sampler2DArray layers;
 uniform samplerCube cube;
 uniform sampler2DRect square;
+uniform samplerBuffer list;
+uniform sampler2DShadow depths;
 out vec4 colour;
 void main()
 {
     vec2 p = gl_FragCoord.xy / 16.0;
     colour = texture(map, p) + texture(maps[1], p) + texture(line, p.x) + texture(volume, vec3(p, 0.5)) +
-             texture(layers, vec3(p, 1.0)) + texture(cube, vec3(p, 1.0)) + texture(square, p);
+             texture(layers, vec3(p, 1.0)) + texture(cube, vec3(p, 1.0)) + texture(square, p) +
+             texelFetch(list, 3) + texture(depths, vec3(p, 0.5));
 }
 )glsl";
 
@@ -69,6 +72,7 @@ TEST_F(Textures, ShowTheirTexels) {
   expect("volume", 0, 2, 4, 4, 2);
   expect("volume", 1, 1, 2, 2, 1);
   expect("layers", 0, 1, 4, 4, 1);
+  expect("list", 0, 0, 32, 1, 0);
   expect("square", 0, 0, 8, 4, 0);
   EXPECT_EQ(window_.debugger().picture().kind, gui::PictureSource::Kind::texture);
   EXPECT_EQ(window_->picture().view().describe(5, 2), "texel 5, 2:  5  2  0  0");
@@ -81,7 +85,7 @@ TEST_F(Textures, AreListedWithWhatTheyAre) {
   panel->showTab(gui::StatePanel::kTextures);
   window_.settle();
   QTreeWidget& list = panel->textures();
-  ASSERT_EQ(list.topLevelItemCount(), 9);
+  ASSERT_EQ(list.topLevelItemCount(), 11);
   EXPECT_EQ(list.topLevelItem(0)->text(0), "map");
   EXPECT_EQ(list.topLevelItem(0)->text(4), "8 × 4");
   EXPECT_EQ(list.topLevelItem(2)->text(0), "maps[1]");
@@ -94,11 +98,47 @@ TEST_F(Textures, AreListedWithWhatTheyAre) {
   EXPECT_EQ(window_.debugger().texture()->slice, 2);
 }
 
-TEST_F(Textures, ShowTheFacesOfACubeMap) {
-  for (int face = 0; face < 6; ++face) expect("cube", 0, face, 4, 4, face);
-  window_.debugger().askTexture("cube", 1, 0);
+TEST_F(Textures, ShowTheFacesOfACubeMapAtEveryLevel) {
+  for (int level = 0, size = 4; size > 0; ++level, size /= 2)
+    for (int face = 0; face < 6; ++face) expect("cube", level, face, size, size, face);
+  window_.debugger().askTexture("cube", 3, 0);
   window_.settle();
-  EXPECT_TRUE(window_.lastMessage().contains("base level")) << window_.lastMessage().toStdString();
+  EXPECT_TRUE(window_.lastMessage().contains("levels 0 to 2")) << window_.lastMessage().toStdString();
+}
+
+// A sampler that compares shows what it compares with.
+TEST_F(Textures, ShowDepths) {
+  window_.debugger().askTexture("depths", 0, 0);
+  window_.settle();
+  const gui::TexturePtr& texture = window_.debugger().texture();
+  ASSERT_TRUE(texture) << window_.lastMessage().toStdString();
+  ASSERT_EQ(texture->width * texture->height, 8 * 4);
+  for (std::size_t i = 0; i < texture->words.size(); i += 4)
+    ASSERT_EQ(std::bit_cast<float>(texture->words[i]), 0.5F);
+  EXPECT_TRUE(texture->check.identical());
+}
+
+TEST(MultisampledTexture, ShowsEachSample) {
+  Window window;
+  window.start({binary("programs/multisampled-texture")}, 0, 1);
+  ASSERT_EQ(window.debugger().program(), gui::Debugger::Program::stopped)
+      << window.lastMessage().toStdString();
+  for (int sample = 0; sample < 4; ++sample) {
+    window.debugger().askTexture("grid", 0, sample);
+    window.settle();
+    const gui::TexturePtr& texture = window.debugger().texture();
+    ASSERT_TRUE(texture) << window.lastMessage().toStdString();
+    ASSERT_EQ(texture->slice, sample) << window.lastMessage().toStdString();
+    ASSERT_EQ(texture->width, 8);
+    ASSERT_EQ(texture->height, 4);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 8; ++x) {
+        const int expected[] = {x, y, sample, 1};
+        for (std::size_t c = 0; c < 4; ++c)
+          ASSERT_EQ(std::bit_cast<float>(texture->words[4 * static_cast<std::size_t>(y * 8 + x) + c]),
+                    static_cast<float>(expected[c]));
+      }
+  }
 }
 
 TEST_F(Textures, HaveTheirCheckBesideThem) {

@@ -114,5 +114,45 @@ TEST_P(Step, SaysWhatCannotBeDone) {
 INSTANTIATE_TEST_SUITE_P(All, Step, testing::Values("single", "window"),
                          [](const auto& parameter) { return parameter.param; });
 
+const std::string kOneSideWrites = R"(#version 330 core
+out vec4 color;
+void main() {
+  float a;
+  if (gl_FragCoord.x < 8.0)
+    a = 1.0;
+  color = vec4(gl_FragCoord.x < 8.0 ? a : 0.5);
+}
+)";
+
+// What a thread has not written on its own way is no value of its, whatever others have written.
+TEST(StepUnwritten, AThreadsValueIsWhatItsOwnWayHasWritten) {
+  const Scratch scratch;
+  std::ofstream(scratch.file("shader.frag")) << kOneSideWrites;
+  const std::vector<std::string> program = {binary("programs/shader-file"), "shader.frag"};
+  for (const bool writes : {true, false}) {
+    const std::string pixel = writes ? "5,7" : "12,7";
+    const Json steps =
+        scratch.step({"--pixel", pixel}, program, {"line 5", "print a", "line 7", "print a,color"});
+    const Json& before = steps[1]["values"][0];
+    EXPECT_TRUE(before["no_value"].get<std::string>().find("no thread") != std::string::npos) << before;
+    EXPECT_TRUE(before["picked"].is_null());
+    const Json& here = steps[3]["values"][0];
+    EXPECT_FALSE(here.contains("no_value")) << here;
+    EXPECT_EQ(here.contains("picked_no_value"), !writes) << here;
+    EXPECT_EQ(here["picked"], writes ? Json(1.0) : Json(nullptr));
+    EXPECT_TRUE(steps[3]["values"][1].contains("no_value")) << "color";
+
+    const Json place =
+        scratch.shadestep({"debug", "--at", "7", "--print", "a", "--pixel", pixel, "--json"}, program).json();
+    EXPECT_EQ(place["values"]["a"]["at_pixel"], writes ? Json(1.0) : Json(nullptr));
+    EXPECT_EQ(place["values"]["a"].contains("at_pixel_no_value"), !writes) << place;
+  }
+  const Json early = scratch.shadestep({"debug", "--at", "5", "--print", "a", "--json"}, program).json();
+  EXPECT_TRUE(early["values"]["a"].contains("no_value")) << early;
+  const Json later =
+      scratch.shadestep({"debug", "--at", "7", "--after", "--print", "color", "--json"}, program).json();
+  EXPECT_FALSE(later["values"]["color"].contains("no_value")) << later;
+}
+
 }  // namespace
 }  // namespace shadestep::test
