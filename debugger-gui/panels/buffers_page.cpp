@@ -69,6 +69,7 @@ BuffersPage::BuffersPage(Debugger& debugger, QWidget* parent)
   contents_->horizontalHeader()->setStretchLastSection(true);
   format_->setToolTip(tr("What the bytes are read as"));
   format_->setAccessibleName(tr("Format"));
+  format_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   components_->setRange(1, 4);
   components_->setToolTip(tr("Numbers per element"));
   stride_->setRange(0, 1 << 20);
@@ -155,7 +156,7 @@ void BuffersPage::takeFormat() {
   const int chosen_kind = format_->currentData().toInt();
   const bool members = chosen_kind == kMembers;
   for (QWidget* one : std::initializer_list<QWidget*>{components_, stride_, normalized_})
-    one->setEnabled(!members);
+    one->setVisible(!members);
   if (members) return model_.read(std::nullopt);
   session::ElementFormat format;
   format.kind = static_cast<Kind>(chosen_kind);

@@ -30,7 +30,7 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setAccessibleName(tr("Variables"));
   tree_->header()->setStretchLastSection(true);
-  for (const auto& [column, width] : {std::pair{0, 136}, {1, 190}, {2, 56}, {3, 62}})
+  for (const auto& [column, width] : {std::pair{0, 130}, {1, 168}, {2, 70}, {3, 70}})
     tree_->setColumnWidth(column, width);
 
   layOutPage(*this, {expression_, check_}, tree_);
