@@ -17,15 +17,23 @@ const std::string& text(const Shader& shader, TokenIndex i) {
   return shader.tokens[static_cast<std::size_t>(i)].text;
 }
 
-// Where the name, or the block's, is declared, outside of all braces.
+// An input block may have the same name.
+bool isOutput(const Shader& shader, TokenIndex block) {
+  for (TokenIndex i = block - 1; i >= 0 && text(shader, i) != ";" && text(shader, i) != "}"; --i)
+    if (text(shader, i) == "out") return true;
+  return false;
+}
+
+// Where the output, or its block, is declared, outside of all braces.
 TokenIndex declaredAt(const Shader& shader, const std::string& name) {
   for (const frontend::Variable& variable : shader.variables) {
     if (variable.name != name || variable.declared == kNone) continue;
-    const TokenIndex brace = openingBrace(shader, variable.declared);
+    const bool behind_block = variable.declared > 0 && text(shader, variable.declared - 1) == "}";
+    const TokenIndex brace = openingBrace(shader, variable.declared - (behind_block ? 1 : 0));
     return brace == kNone ? variable.declared : brace;
   }
   for (TokenIndex i = 0; i + 1 < static_cast<TokenIndex>(shader.tokens.size()); ++i)
-    if (text(shader, i) == name && text(shader, i + 1) == "{") return i;
+    if (text(shader, i) == name && text(shader, i + 1) == "{" && isOutput(shader, i)) return i;
   return kNone;
 }
 

@@ -7,7 +7,7 @@
 
 namespace shadestep::instrumenter {
 
-// The stream that an output belongs to, by its name in transform feedback (feedbackOutputs): as its
+// The stream that an output belongs to, by its own name or that in transform feedback (feedbackOutputs): as its
 // declaration, its block's, or the last default before it says; 0 of all others.
 int streamOf(const frontend::Shader&, const std::string& name);
 

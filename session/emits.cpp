@@ -4,6 +4,8 @@
 #include <span>
 #include <tuple>
 
+#include "instrumenter/streams.h"
+
 namespace shadestep::session {
 namespace {
 
@@ -41,7 +43,7 @@ class Reader {
 
   void read() {
     for (std::size_t i = instrumenter::kEmitFields; i < layout_.fields.size(); ++i)
-      emits_.outputs.push_back({layout_.fields[i].name, layout_.fields[i].type});
+      emits_.outputs.push_back({layout_.fields[i].name, layout_.fields[i].type, 0});
     readEntries();
     for (std::size_t first = 0; first < entries_.size();) {
       std::size_t end = first + 1;
@@ -201,6 +203,8 @@ GeometryEmits geometryEmits(Session& session) {
         (emits.check.left_out.empty() ? "" : "; ") +
         std::string("max_vertices is no plain number: vertices beyond it are listed, too");
   Reader(captured, emits).read();
+  for (GeometryEmits::Output& output : emits.outputs)
+    output.stream = instrumenter::streamOf(session.shader(), output.name);
   return emits;
 }
 

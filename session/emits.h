@@ -42,6 +42,7 @@ struct GeometryEmits {
   struct Output {
     std::string name;
     frontend::Type type;
+    int stream = 0;  // vertices of other streams have no such output
   };
   std::vector<Output> outputs;
   std::string primitive;  // that the shader makes: "points", "line_strip", "triangle_strip"

@@ -25,16 +25,17 @@ struct Options {
 
 // ---- JSON
 
-Json asJson(const GeometryEmits& emits, const EmittedVertex& vertex) {
+Json asJson(const GeometryEmits& emits, const EmittedVertex& vertex, int stream) {
   Json json = Json::object();
   for (std::size_t i = 0; i < vertex.values.size(); ++i)
-    json[emits.outputs[i].name] = toJson(vertex.values[i]);
+    if (emits.outputs[i].stream == stream) json[emits.outputs[i].name] = toJson(vertex.values[i]);
   return json;
 }
 
 Json asJson(const GeometryEmits& emits, const OutputPrimitive& output) {
   Json vertices = Json::array();
-  for (const EmittedVertex& vertex : output.vertices) vertices.push_back(asJson(emits, vertex));
+  for (const EmittedVertex& vertex : output.vertices)
+    vertices.push_back(asJson(emits, vertex, output.stream));
   return {{"stream", output.stream},
           {"parts", output.parts},
           {"ill_formed", output.ill_formed},
@@ -99,9 +100,11 @@ void printOutput(const GeometryEmits& emits, const OutputPrimitive& output, std:
             << "\n";
   for (std::size_t i = 0; i < output.vertices.size(); ++i) {
     std::cout << "      vertex " << i;
-    for (std::size_t k = 0; k < emits.outputs.size(); ++k)
+    for (std::size_t k = 0; k < emits.outputs.size(); ++k) {
+      if (emits.outputs[k].stream != output.stream) continue;
       std::cout << "  " << emits.outputs[k].name << " = "
                 << session::formatValue(output.vertices[i].values[k]);
+    }
     std::cout << "\n";
   }
 }
@@ -153,10 +156,12 @@ std::string asCsv(const GeometryEmits& emits) {
           csv += std::to_string(input.primitive) + "," + std::to_string(input.repeat) + "," +
                  std::to_string(run.invocation) + "," + std::to_string(output.stream) + "," +
                  std::to_string(i) + "," + std::to_string(v);
-          for (const instrumenter::Value& value : output.vertices[v].values) {
+          for (std::size_t k = 0; k < emits.outputs.size(); ++k) {
+            const instrumenter::Value& value = output.vertices[v].values[k];
+            const bool has = emits.outputs[k].stream == output.stream;
             const std::uint32_t* word = value.words.data();
             for (const auto& component : frontend::components(value.type)) {
-              csv += "," + session::formatComponent(component.basic, word);
+              csv += "," + (has ? session::formatComponent(component.basic, word) : "");
               word += session::wordsPerComponent(component.basic);
             }
           }

@@ -134,8 +134,10 @@ QVariant EmitsModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::DisplayRole) {
     if (index.column() == 0) return nameOf(node);
     if (node.level != Level::vertex) return {};
-    const auto& values = input.runs[node.run].outputs[node.output].vertices[node.vertex].values;
-    return QString::fromStdString(session::formatValue(values[static_cast<std::size_t>(index.column()) - 1]));
+    const session::OutputPrimitive& output = input.runs[node.run].outputs[node.output];
+    const std::size_t which = static_cast<std::size_t>(index.column()) - 1;
+    if (emits_->outputs[which].stream != output.stream) return {};
+    return QString::fromStdString(session::formatValue(output.vertices[node.vertex].values[which]));
   }
   if (role == Qt::FontRole && index.column() > 0) return monospaced();
   if (role == Qt::ForegroundRole && node.level == Level::output &&

@@ -323,9 +323,11 @@ TEST_P(Emits, KeepStreamsApart) {
     for (int i = 0; i < id % 3; ++i) {
       EXPECT_EQ(outputs[i]["stream"], 0);
       EXPECT_EQ(outputs[i]["vertices"][0]["number"], key(id) + i);
+      EXPECT_FALSE(outputs[i]["vertices"][0].contains("other"));
     }
     EXPECT_EQ(outputs[id % 3]["stream"], 1);
     EXPECT_EQ(outputs[id % 3]["vertices"][0]["other"], -key(id));
+    EXPECT_FALSE(outputs[id % 3]["vertices"][0].contains("number"));
   }
 }
 
