@@ -129,9 +129,13 @@ session::Stage selectedStage(const Common& common) {
   return *stage;
 }
 
-void runToSelection(session::Session& session, const Common& common) {
+void runToDraw(session::Session& session, const Common& common) {
   session.runTo(common.frame, common.draw);
   session.select(selectedStage(common));
+}
+
+void runToSelection(session::Session& session, const Common& common) {
+  runToDraw(session, common);
   session.shader();  // exit 3 if there is none, 4 if it has no source or cannot be analysed
 }
 

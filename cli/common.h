@@ -52,6 +52,8 @@ std::vector<std::string> splitList(const std::string& text);  // at commas, blan
 
 // The selected stage; throws usage for a name that is none.
 session::Stage selectedStage(const Common&);
+// Runs to the selected draw and selects its stage, whatever is there.
+void runToDraw(session::Session&, const Common&);
 // Runs to the selected draw and selects its stage, which must be there and can be analysed.
 void runToSelection(session::Session&, const Common&);
 

@@ -8,13 +8,35 @@ Profile byMethod(const std::string& method, session::Session& session, const Pro
   if (method == "count") return profileCount(session, options);
   if (method == "clock") return profileClock(session, options);
   if (method == "isolate") return profileIsolate(session, options);
+  if (method == "tiles") return profileTiles(session, options);
   return profileAuto(session, options);
+}
+
+}  // namespace
+
+namespace {
+
+// Why the stage has no text to instrument; empty if it has.
+std::string withoutSource(session::Session& session) {
+  try {
+    session.shader();
+    return {};
+  } catch (const session::Error& error) {
+    if (error.outcome() != session::Outcome::cannot_debug) throw;
+    return error.what();
+  }
 }
 
 }  // namespace
 
 Profile profileAuto(session::Session& session, const ProfileOptions& options) {
   std::vector<std::string> reasons;
+  if (const std::string reason = withoutSource(session);
+      !reason.empty() && session.stage() == session::Stage::fragment) {
+    Profile profile = profileTiles(session, options);
+    profile.notes.push_back("Not by pixel or line: " + reason + ".");
+    return profile;
+  }
   for (Profile (*const method)(session::Session&, const ProfileOptions&) : {profileClock, profileIsolate}) {
     try {
       Profile profile = method(session, options);

@@ -28,7 +28,7 @@
 
 namespace shadestep::profiler {
 
-enum class Method { count, clock, isolate };
+enum class Method { count, clock, isolate, tiles };
 const char* methodName(Method);
 
 struct ProfileOptions {
@@ -164,11 +164,16 @@ Profile profileCount(session::Session&, const ProfileOptions&);
 Profile profileClock(session::Session&, const ProfileOptions&);
 Profile profileIsolate(session::Session&, const ProfileOptions&);
 
-// The best that works here: clock, else isolate, else count; why the better ones do not stands in the notes.
+// What the draw takes in each tile of its target, whatever runs there: the only method for programs without
+// GLSL source (binaries, SPIR-V), assembly programs and none. Every pixel of a tile has the same cost.
+Profile profileTiles(session::Session&, const ProfileOptions&);
+
+// The best that works here: clock, else isolate, else count, or tiles where there is no source; why the
+// better ones do not stands in the notes.
 Profile profileAuto(session::Session&, const ProfileOptions&);
 
-// By the method of this name: "count", "clock", "isolate"; any other: profileAuto. With `textures` where it
-// looks up textures, which throws as mapTextures does.
+// By the method of this name: "count", "clock", "isolate", "tiles"; any other: profileAuto. With `textures`
+// where it looks up textures, which throws as mapTextures does.
 Profile profileBy(const std::string& method, session::Session&, const ProfileOptions&);
 
 }  // namespace shadestep::profiler

@@ -14,6 +14,8 @@ const char* methodName(Method method) {
       return "clock";
     case Method::isolate:
       return "isolate";
+    case Method::tiles:
+      return "tiles";
   }
   return "";
 }

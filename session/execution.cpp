@@ -84,6 +84,20 @@ Prepared::~Prepared() {
   if (session_ != nullptr) session_->release(handle_);
 }
 
+BoxTimes Session::timeBoxes(const std::vector<Box>& boxes, int repeats) {
+  wire::TimeBoxesT request;
+  for (const Box& box : boxes) request.boxes.emplace_back(box.x, box.y, box.width, box.height);
+  request.repeats = static_cast<std::uint32_t>(repeats);
+  const auto [reply, bulk] = state_->ask<wire::BoxTimesT>(std::move(request));
+  const std::size_t expected = boxes.size() * static_cast<std::size_t>(repeats);
+  if (reply.times_ns.size() != expected || reply.cpu_ns.size() != expected)
+    throw Error(Outcome::failed, "the agent's answer is incomplete; report this as a bug");
+  BoxTimes result;
+  for (const std::uint64_t ns : reply.times_ns) result.times.emplace_back(ns);
+  for (const std::uint64_t ns : reply.cpu_ns) result.cpu_times.emplace_back(ns);
+  return result;
+}
+
 Execution Session::execute(const Prepared& prepared, const ExecuteOptions& options) {
   wire::ExecuteT execute;
   execute.handle = prepared.handle();

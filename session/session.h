@@ -247,6 +247,16 @@ struct BoundBuffer {
   int divisor = 0;
 };
 
+// Pixels of the draw's target, lower left corner and size.
+struct Box {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+// Of a draw restricted to boxes: one of each per repeat and box, the boxes of a repeat in order, as
+// Execution has them.
+struct BoxTimes {
+  std::vector<std::chrono::nanoseconds> times, cpu_times;
+};
+
 struct Captured {
   ThreadWords threads;
   instrumenter::AttachmentLayout layout;
@@ -357,6 +367,10 @@ class Session {
   Prepared prepareStorage(const std::string& text, const std::string& block);
   Prepared prepareCovering(const std::string& fragment_text, const std::string& vertex_text);  // isolate
   Execution execute(const Prepared&, const ExecuteOptions& = {});
+  // Times the program's own draw, with its own program or none, restricted to each of the boxes, which do not
+  // overlap; works where there is no shader to debug. Throws cannot_debug if this target cannot be drawn
+  // again.
+  BoxTimes timeBoxes(const std::vector<Box>&, int repeats);
   // prepare + execute. Threads that end in a discard are put where the draw
   // shows none of its fragments, marked kDiscarded: the nearest of them; where that is not clear, none, and
   // `left_out` says so.

@@ -74,7 +74,7 @@ profiler::ProfileOptions profileOptions(const Options& options) {
 }
 
 // The costliest lines, most first.
-void printLines(const profiler::Profile& profile, const frontend::Shader& shader) {
+void printLines(const profiler::Profile& profile, const std::vector<std::string>& source) {
   std::vector<profiler::LineCost> lines = profile.lines;
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
     return std::pair(a.share.value_or(0), a.hits) > std::pair(b.share.value_or(0), b.hits);
@@ -86,11 +86,11 @@ void printLines(const profiler::Profile& profile, const frontend::Shader& shader
     const std::string share = line.share ? profiler::readable(100 * *line.share, 3) + " %" : "";
     const auto index = static_cast<std::size_t>(line.line) - 1;
     std::printf("  %4d  %12s  %6s  %s\n", line.line, withThousands(line.hits).c_str(), share.c_str(),
-                index < shader.lines.size() ? shader.lines[index].c_str() : "");
+                index < source.size() ? source[index].c_str() : "");
   }
 }
 
-void printComparison(const profiler::Comparison& comparison, const frontend::Shader& shader) {
+void printComparison(const profiler::Comparison& comparison, const std::vector<std::string>& source) {
   const auto percent = [](double share) { return profiler::readable(100 * share, 3) + " %"; };
   std::printf("\nagainst %s: %s%s in all, noise %s: %s\n", comparison.file.c_str(),
               comparison.change > 0 ? "+" : "", percent(comparison.change).c_str(),
@@ -112,10 +112,9 @@ void printComparison(const profiler::Comparison& comparison, const frontend::Sha
     const auto index = static_cast<std::size_t>(line.line) - 1;
     const std::string change =
         comparison.before > 0 ? percent((line.cost - line.cost_before) / comparison.before) : "";
-    std::printf(
-        "  %4d  %12s  %12s  %15s  %s\n", line.line != 0 ? line.line : line.line_before,
-        withThousands(line.hits_before).c_str(), withThousands(line.hits).c_str(), change.c_str(),
-        line.line != 0 && index < shader.lines.size() ? shader.lines[index].c_str() : "(no longer there)");
+    std::printf("  %4d  %12s  %12s  %15s  %s\n", line.line != 0 ? line.line : line.line_before,
+                withThousands(line.hits_before).c_str(), withThousands(line.hits).c_str(), change.c_str(),
+                line.line != 0 && index < source.size() ? source[index].c_str() : "(no longer there)");
   }
 }
 
@@ -138,7 +137,7 @@ void printNeighbours(const profiler::NeighbourCost& paid, const std::string& uni
   agreements(paid.same, "in which all threads do the same");
 }
 
-void printText(const profiler::Profile& profile, const frontend::Shader& shader) {
+void printText(const profiler::Profile& profile, const std::vector<std::string>& source) {
   const auto cost = [&](double value) {
     const profiler::ScaledUnit unit = profiler::scaledUnit(profile.unit, value);
     return profiler::readable(value * unit.factor) + " " + unit.name;
@@ -162,7 +161,7 @@ void printText(const profiler::Profile& profile, const frontend::Shader& shader)
   std::cout << describe(profile.check) << "\n";
   for (const std::string& note : profile.notes) std::cout << "note: " << note << "\n";
   std::fflush(stdout);
-  printLines(profile, shader);
+  printLines(profile, source);
   if (profile.fit)
     std::printf("\n  shares by a fit of costs to counts: R2 %s\n",
                 profiler::readable(profile.fit->r2, 3).c_str());
@@ -253,6 +252,18 @@ void requireLoop(const frontend::Shader& shader) {
                          "--per-iteration needs a loop, and the shader has none");
 }
 
+// The shader's lines; none where it has no source.
+std::vector<std::string> sourceOf(session::Session& session) {
+  try {
+    return session.shader().lines;
+  } catch (const session::Error& error) {
+    if (error.outcome() != session::Outcome::cannot_debug &&
+        error.outcome() != session::Outcome::nothing_matches)
+      throw;
+    return {};
+  }
+}
+
 int run(const Common& common, const Options& options) {
   profiler::ProfileOptions how = profileOptions(options);
   std::optional<profiler::Earlier> earlier;
@@ -267,8 +278,9 @@ int run(const Common& common, const Options& options) {
   }
   InterruptibleSession interruptible(common.launchOptions());
   session::Session& session = interruptible.session();
-  runToSelection(session, common);
-  session.requireCapturable();
+  runToDraw(session, common);
+  // What has no source is not refused: its draw can be timed.
+  if (options.method != "auto" && options.method != "tiles") session.requireCapturable();
   if (options.per_iteration) requireLoop(session.shader());
   // Who the threads of other stages are, no picture tells.
   if (!options.csv.empty() || session.stage() != session::Stage::fragment)
@@ -284,10 +296,10 @@ int run(const Common& common, const Options& options) {
                                   session, how);
   }
   if (profile.interrupted) std::fprintf(stderr, "interrupted: this is what was measured until then\n");
-  const frontend::Shader& shader = session.shader();
-  const profiler::Subject what{profiler::subjectOf(common.program.front(), session), shader.lines};
+  const std::vector<std::string> source = sourceOf(session);
+  const profiler::Subject what{profiler::subjectOf(common.program.front(), session), source};
   std::optional<profiler::Comparison> comparison;
-  if (earlier) comparison = profiler::compare(*earlier, profile, shader.lines);
+  if (earlier) comparison = profiler::compare(*earlier, profile, source);
   const profiler::Comparison* const compared = comparison ? &*comparison : nullptr;
   const auto before = std::chrono::steady_clock::now();
   profiler::writeProfile(profile, files, what, compared);
@@ -295,10 +307,10 @@ int run(const Common& common, const Options& options) {
   if (common.json) {
     print(profiler::toJson(profile, files, what, compared));
   } else {
-    printText(profile, shader);
+    printText(profile, source);
     printBranches(profile);
     if (profile.textures) printTextures(*profile.textures);
-    if (comparison) printComparison(*comparison, shader);
+    if (comparison) printComparison(*comparison, source);
     printFiles(files, profile, comparison.has_value(), writing.count());
   }
   const bool differs = profile.check.compared_at_all && !profile.check.identical();
@@ -318,8 +330,10 @@ void addProfile(CLI::App& app, Common& common, Action& action) {
       ->add_option(
           "--method", options->method,
           "count: statements executed; clock: the driver's shader clock; isolate: one pixel's thread "
-          "alone, on the CPU's clock; auto: clock, else isolate, else count")
-      ->check(CLI::IsMember({"auto", "clock", "isolate", "count"}));
+          "alone, on the CPU's clock; tiles: the program's own draw in parts of its target, without source, "
+          "too; "
+          "auto: clock, else isolate, else count; tiles where there is no source")
+      ->check(CLI::IsMember({"auto", "clock", "isolate", "count", "tiles"}));
   command->add_option("--roi", options->roi, "only these pixels: lower left corner and size")
       ->type_name("X,Y,W,H");
   command

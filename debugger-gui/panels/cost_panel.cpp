@@ -41,7 +41,8 @@ CostPanel::CostPanel(Debugger& debugger, QWidget* parent)
   for (const auto& [name, shown] : {std::pair{"auto", tr("best that works")},
                                     {"clock", tr("shader clock")},
                                     {"isolate", tr("isolated pixels")},
-                                    {"count", tr("statements")}})
+                                    {"count", tr("statements")},
+                                    {"tiles", tr("tiles of the target")}})
     method_->addItem(shown, QString(name));
   method_->setToolTip(tr("Method"));
   budget_->setRange(0.5, 3600);

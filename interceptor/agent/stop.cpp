@@ -12,6 +12,7 @@
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/fragment_guards.h"
 #include "interceptor/guard/plain_samplers.h"
+#include "interceptor/guard/scissor_guard.h"
 #include "interceptor/guard/state_digest.h"
 #include "interceptor/replay/writable.h"
 
@@ -96,6 +97,8 @@ Reply Stop::answer(const wire::MessageT& request) {
     wire::SharedMemory bulk;
     reply = replied(execute(*execute_request, bulk));
     if (reply.message.body.AsExecuted() != nullptr) reply.bulk = std::move(bulk);
+  } else if (const wire::TimeBoxesT* boxes = request.body.AsTimeBoxes()) {
+    reply = replied(timeBoxes(*boxes));
   } else if (const wire::ReleaseT* release = request.body.AsRelease()) {
     prepared_.erase(release->handle);
     reply = success(wire::DoneT{});
@@ -357,19 +360,56 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
   return executed;
 }
 
-// Whatever the program's own shaders or their copies can write. A dead block of the original may be alive in
-// a copy, so that there is more to save, and to compare, than before.
-Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
+// Boxes do not overlap: all of a repeat may draw into one copy of the target, as the whole draw would.
+OrRefusal<wire::BoxTimesT> Stop::timeBoxes(const wire::TimeBoxesT& request) {
   const guard::ContextFacts& context = facts().context;
-  if (!memory_) {
-    memory_.emplace(context);
-    std::set<GLuint> programs = {facts().program};
-    for (const replay::StageProgram& stage : facts().stages) programs.insert(stage.program);
-    for (const GLuint program : programs) {
-      if (Refusal refusal = memory_->save(replay::writableBindings(context, program)); !refusal.text.empty())
-        return refusal;
+  if (!facts().target.reason.empty()) return guard::unsupported(facts().target.reason);
+  const QueryPause queries(context);
+  const guard::ProgramGuard program(context);
+  const guard::FramebufferGuard framebuffers(context);
+  if (Refusal refusal = saveOwnMemory(); !refusal.text.empty()) return refusal;
+  const guard::MemoryGuard memory(*memory_);
+  if (shadow_ == nullptr) shadow_ = std::make_unique<capture::Shadow>(context, facts().target);
+  wire::ExecutedT executed;
+  CpuTime cpu;
+  for (std::uint32_t i = 0; i < request.repeats; ++i) {
+    if (Refusal refusal = shadow_->fill(framebuffers, {}, capture::Shadow::Start::copied);
+        !refusal.text.empty())
+      return refusal;
+    const guard::ScissorGuard scissor(context);
+    for (const wire::Box& box : request.boxes) {
+      memory_->restore();
+      scissor.restrictTo(box.x(), box.y(), box.width(), box.height());
+      timed(executed, cpu, [&] { call_.replay(call_.arguments, call_.mode); });
     }
   }
+  if (guard::clearErrors()) return guard::internal("the driver answers the draw call itself with an error");
+  wire::BoxTimesT times;
+  times.times_ns = std::move(executed.times_ns);
+  times.cpu_ns = std::move(executed.cpu_ns);
+  return times;
+}
+
+// Whatever the program's own shaders can write.
+Refusal Stop::saveOwnMemory() {
+  if (memory_) return {};
+  const guard::ContextFacts& context = facts().context;
+  memory_.emplace(context);
+  std::set<GLuint> programs = {facts().program};
+  for (const replay::StageProgram& stage : facts().stages) programs.insert(stage.program);
+  for (const GLuint program : programs) {
+    if (program == 0) continue;
+    if (Refusal refusal = memory_->save(replay::writableBindings(context, program)); !refusal.text.empty())
+      return refusal;
+  }
+  return {};
+}
+
+// The same, and whatever copies of them can. A dead block of the original may be alive in a copy, so that
+// there is more to save, and to compare, than before.
+Refusal Stop::saveMemory(const replay::ProgramCopy& copy) {
+  const guard::ContextFacts& context = facts().context;
+  if (Refusal refusal = saveOwnMemory(); !refusal.text.empty()) return refusal;
   guard::WritableBindings bindings = replay::writableBindings(context, copy.program);
   if (copy.storage_binding >= 0) bindings.storage.erase(static_cast<GLuint>(copy.storage_binding));
   const std::size_t before = memory_->sections().size();

@@ -31,8 +31,8 @@ class Stop {
   explicit Stop(const calls::DrawCall&);
 
   wire::StoppedT announcement(std::uint64_t frame, std::uint64_t draw) const;
-  // Answers Describe, DescribeState, DescribeTextures, DescribeBuffers, ReadBuffer, Prepare, Execute and
-  // Release; Failed to anything else.
+  // Answers Describe, DescribeState, DescribeTextures, DescribeBuffers, ReadBuffer, Prepare, Execute, TimeBoxes
+  // and Release; Failed to anything else.
   Reply answer(const wire::MessageT& request);
 
  private:
@@ -44,6 +44,7 @@ class Stop {
                                            wire::SharedMemory& bulk);
   guard::OrRefusal<wire::ExecutedT> cover(const replay::ProgramCopy&, const wire::ExecuteT&,
                                           wire::SharedMemory& bulk);
+  guard::OrRefusal<wire::BoxTimesT> timeBoxes(const wire::TimeBoxesT&);
   guard::Refusal checkPlane(const wire::ExecuteT&);
   void setRaster(const wire::RasterT*);
   guard::Refusal prepareReplay(const replay::ProgramCopy&, const guard::FramebufferGuard&,
@@ -52,6 +53,7 @@ class Stop {
   void readOutputs(const wire::ExecuteT&, const wire::ExecutedT&, wire::SharedMemory& bulk);
   void readCaptured(const replay::ProgramCopy&, const wire::ExecuteT&, const wire::ExecutedT&,
                     wire::SharedMemory& bulk);
+  guard::Refusal saveOwnMemory();
   guard::Refusal saveMemory(const replay::ProgramCopy&);
   guard::Refusal drawOriginal(const guard::FramebufferGuard&);
   const DrawFacts& facts();

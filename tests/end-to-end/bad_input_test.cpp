@@ -112,6 +112,11 @@ INSTANTIATE_TEST_SUITE_P(
              {binary("programs/program-binary")},
              4,
              "the program was loaded as a binary: there is no source"},
+        Case{"SpirV",
+             {"debug", "--pixel", "1,1"},
+             {binary("programs/spirv")},
+             4,
+             "the shader is SPIR-V: there is no source"},
         Case{"EndsEarly", {"debug", "--pixel", "1,1"}, {binary("programs/no-draw")}, 3, "no draw"}),
     [](const auto& given) { return given.param.name; });
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numeric>
 
 #include "profiler/profile.h"
@@ -185,6 +187,35 @@ TEST_F(Methods, isolate_measures_a_part_and_says_how_well_the_rest_is_known) {
   EXPECT_GT(profile.same_output->tried, 4U);
   EXPECT_EQ(profile.same_output->same, profile.same_output->tried)
       << "a thread alone computes something else";
+}
+
+// They draw with the program's own program: the state of the context and the picture are as without them.
+TEST(Tiles, leave_the_program_its_state_and_picture) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string files[] = {folder / ("tiles-bare-" + std::to_string(getpid())),
+                               folder / ("tiles-profiled-" + std::to_string(getpid()))};
+  std::string pictures[2];
+  for (const int profiled : {0, 1}) {
+    session::LaunchOptions options;
+    options.command = {beside("programs/program-binary"), files[profiled]};
+    options.timeout = std::chrono::seconds(120);
+    session::Session session(options);
+    session.runTo(0, 0);
+    if (profiled == 1) {
+      const auto before = session.glState();
+      ProfileOptions how;
+      how.roi = Region{0, 0, 40, 64};
+      const Profile profile = profileTiles(session, how);
+      EXPECT_EQ(profile.covered, 40U * 64U);
+      EXPECT_EQ(session.glState(), before);
+    }
+    EXPECT_EQ(session.runToEnd(), 0);
+    std::ifstream file(files[profiled], std::ios::binary);
+    pictures[profiled] = {std::istreambuf_iterator<char>(file), {}};
+    std::filesystem::remove(files[profiled]);
+  }
+  EXPECT_EQ(pictures[0].size(), 64U * 64U * 4U);
+  EXPECT_EQ(pictures[0], pictures[1]);
 }
 
 }  // namespace

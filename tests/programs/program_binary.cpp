@@ -6,7 +6,10 @@ static const char* const kFragment = R"glsl(#version 330 core
 out vec4 color;
 void main()
 {
-    color = vec4(gl_FragCoord.xy / 64.0, 0.5, 1.0);
+    float sum = 0.0;
+    for (int i = 0; i < 32 * int(gl_FragCoord.x); ++i)  // dearer from left to right
+        sum += sin(sum + gl_FragCoord.y);
+    color = vec4(gl_FragCoord.xy / 64.0, sum < 1.0e9 ? 0.5 : sum, 1.0);
 }
 )glsl";
 
