@@ -219,9 +219,14 @@ class Check:
         if set(shown) != set(truth):
             problems.append(f"threads that get there: {len(shown)} instead of {len(truth)}, such as "
                             f"{sorted(set(shown) ^ set(truth))[0]}")
+        # What no thread has written on the way to the place has no column.
+        unwritten = [name for name in names if "no_value" in json.loads(out)["values"][name]]
+        for name in unwritten:
+            if not uncertain and any(word is not None for one in truth.values() for word in one[name][1]):
+                problems.append(f"{name} is said to have no value, must be {next(iter(truth.values()))[name][1]}")
         for thread in sorted(set(shown) & set(truth)):
             cells = shown[thread]
-            right = [one for name in names for one in truth[thread][name][1]]
+            right = [one for name in names if name not in unwritten for one in truth[thread][name][1]]
             got = [number(cell) for cell in cells]
             if not uncertain and not compare.same(right, got):
                 problems.append(f"thread {thread}: {', '.join(names)} = {cells}, must be {right}")
