@@ -38,8 +38,12 @@ Fixed fixedCost(const Repeats& large, const Repeats& small, double writing) {
   for (std::size_t i = 0; i < large.size(); ++i)
     if (!large[i].empty() && !small[i].empty())
       points.emplace_back(lowerQuartile(large[i], 0, 1), lowerQuartile(small[i], 0, 1));
-  const Line line = robustLine(std::move(points));
-  return {std::clamp(line.slope, 0.0, 0.9), line.start + writing};
+  // Where all pixels cost the same their noise alone makes the slope; the line must pass through them all the
+  // same.
+  const double slope = std::clamp(robustLine(points).slope, 0.0, 0.9);
+  std::vector<double> starts;
+  for (const auto& [large_time, small_time] : points) starts.push_back(small_time - slope * large_time);
+  return {slope, (starts.empty() ? 0 : median(std::move(starts))) + writing};
 }
 
 }  // namespace

@@ -77,6 +77,24 @@ TEST(Combine, takes_off_what_small_draws_cost_too) {
   EXPECT_GT(combine(with_fixed, 40).cost.front(), 20 * timings.cost.front()) << "what the empty draw lacks";
 }
 
+// Nothing but noise then tells how small draws grow with large ones: what they take off must not depend on
+// it.
+TEST(Combine, takes_off_as_much_where_all_pixels_cost_the_same) {
+  for (const double steep : {-5.0, 0.5, 5.0}) {
+    std::vector<Visit> alike = visits(40, [](int) { return 1.0; });
+    for (Visit& visit : alike) {
+      visit.small_baseline = visit.baseline;
+      for (std::size_t i = 0; i < visit.times.size(); ++i) {
+        const double noise = 100.0 * static_cast<double>(visit.pixels[i] % 9) - 400;
+        visit.times[i] = 1e6 + noise;
+        visit.small.push_back(3e5 + steep * noise);
+      }
+    }
+    const Timings timings = combine(alike, 40);
+    for (const double cost : timings.cost) EXPECT_NEAR(cost, 7e5, 4000) << steep;
+  }
+}
+
 TEST(Combine, forgets_disturbed_repeats) {
   std::vector<Visit> disturbed = visits(40, [](int) { return 1.0; });
   for (std::size_t v = 0; v < disturbed.size(); ++v)
