@@ -126,9 +126,9 @@ void Programs::noteLast(const Peer& peer) {
   if (page.used_gl.load() == 0) return;
   last_.used_gl = true;
   last_.frame = page.frame.load();
-  last_.draws = page.draw.load();
+  last_.draws = page.draw();
   last_.frames = last_.frame + (last_.draws > 0 ? 1 : 0);
-  last_.total_draws = page.draws.load();
+  last_.total_draws = page.draws();
 }
 
 // The calls that a program that is gone has not sent any more.

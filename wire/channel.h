@@ -12,7 +12,7 @@
 namespace shadestep::wire {
 
 // Raised when the schema or AgentMemory change their meaning; Hello carries it.
-inline constexpr std::uint32_t kProtocol = 4;
+inline constexpr std::uint32_t kProtocol = 5;
 
 // Environment variable by which the session tells the agent the (abstract) socket name.
 inline constexpr const char* kSocketVariable = "SHADESTEP_SOCKET";

@@ -61,15 +61,52 @@ std::mutex& numbering() {
   return *one;
 }
 
-// The number of the draw that begins.
-std::uint64_t countDraw() {
-  status.draws.fetch_add(1, kRelaxed);
-  return status.draw.fetch_add(1, kRelaxed);
+// Who counts this thread's draws: the thread that drew first has a counter of its own.
+enum class Drawer : char { unknown, first, other };
+constinit thread_local Drawer drawer [[gnu::tls_model("initial-exec")]] = Drawer::unknown;
+
+void countDraw() {
+  static constinit std::atomic<bool> drawn{false};
+  if (drawer == Drawer::unknown) [[unlikely]]
+    drawer = drawn.exchange(true) ? Drawer::other : Drawer::first;
+  if (drawer == Drawer::first) {
+    status.first_draws.store(status.first_draws.load(kRelaxed) + 1, kRelaxed);
+  } else {
+    status.other_draws.fetch_add(1, kRelaxed);
+  }
 }
 
-bool reached(std::uint64_t frame, std::uint64_t draw) {
+// A draw's number.
+struct Number {
+  std::uint64_t frame = 0;
+  std::uint64_t draw = 0;
+};
+
+// This thread's, from calls::beginDraw to calls::stopAtBegun; and whether the session waits for one such draw
+// of any thread: then it wants no other, nor the end of the frame.
+constinit thread_local Number begun;
+constinit std::atomic<bool> waits_for_begun{false};
+
+// Under the lock of `numbering`.
+Number number() {
+  const Number now{status.frame.load(kRelaxed), status.draw()};
+  countDraw();
+  return now;
+}
+
+bool reached(const Number& number) {
   const std::uint64_t wanted = stop_frame.load(kRelaxed);
-  return frame > wanted || (frame == wanted && draw >= stop_draw.load(kRelaxed));
+  return number.frame > wanted || (number.frame == wanted && number.draw >= stop_draw.load(kRelaxed));
+}
+
+// Under the lock of `numbering`.
+bool waitsFor(const Number& number) {
+  return !waits_for_begun.load(kRelaxed) && reached(number);
+}
+
+// Whether a call makes no draw now: it is part of one, or is only compiled into a display list.
+bool drawsNothing() {
+  return calls::betweenBeginAndEnd || (calls::compilesLists && calls::compilesOnly());
 }
 
 bool send(wire::Channel& channel, const wire::MessageT& message, int bulk = -1) {
@@ -125,14 +162,14 @@ Reply notAtADraw(const wire::MessageT&) {
   return reply;
 }
 
-void stopAtDraw(const calls::DrawCall& call, std::uint64_t frame, std::uint64_t draw) {
+void stopAtDraw(const calls::DrawCall& call, const Number& number) {
   sendCalls();
   Connection& session = connection();
   const std::lock_guard lock(session.mutex);
   // Another thread may have stopped meanwhile, and the session asked for something else.
-  if (!armed.load(kRelaxed) || !reached(frame, draw) || dispatch::currentContext() == nullptr) return;
+  if (!armed.load(kRelaxed) || !reached(number) || dispatch::currentContext() == nullptr) return;
   Stop stop(call);
-  if (!sendBody(session.channel, stop.announcement(frame, draw))) return letGo(session.channel);
+  if (!sendBody(session.channel, stop.announcement(number.frame, number.draw))) return letGo(session.channel);
   serve(session.channel, [&](const wire::MessageT& request) { return stop.answer(request); });
 }
 
@@ -152,8 +189,9 @@ void stopAtFrameEnd(std::uint64_t frame, std::uint64_t draws) {
 bool shareStatus(const wire::SharedMemory& memory) {
   auto* shared = new (memory.data()) wire::StatusPage{};
   shared->frame.store(status.frame.load());
-  shared->draw.store(status.draw.load());
-  shared->draws.store(status.draws.load());
+  shared->first_draws.store(status.first_draws.load());
+  shared->other_draws.store(status.other_draws.load());
+  shared->earlier_draws.store(status.earlier_draws.load());
   shared->used_gl.store(status.used_gl.load());
   shared->last_call.store(reinterpret_cast<const char*>(&calls::lastCall) -
                           static_cast<const char*>(__builtin_thread_pointer()));
@@ -173,12 +211,12 @@ void inForkedChild() {
   armed.store(false, kRelaxed);
   connected.store(false, kRelaxed);
   useJournal(nullptr);
-  const std::uint64_t frame = status.frame.load(), draw = status.draw.load(), draws = status.draws.load();
+  const std::uint64_t frame = status.frame.load(), draw = status.draw(), draws = status.draws();
   const std::uint32_t used_gl = status.used_gl.load();
   mmap(&status, wire::kPageBytes, PROT_READ | PROT_WRITE, MAP_FIXED | MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   status.frame.store(frame, kRelaxed);
-  status.draw.store(draw, kRelaxed);
-  status.draws.store(draws, kRelaxed);
+  status.other_draws.store(draws, kRelaxed);
+  status.earlier_draws.store(draws - draw, kRelaxed);
   status.used_gl.store(used_gl, kRelaxed);
   connection().channel.close();
 }
@@ -192,8 +230,7 @@ void stopAtCall(CallStop& stop, std::optional<wire::CallReason> (*reason)(const 
   const auto why = reason(stop);
   if (!why || !session.channel.open()) return;
   status.pause.store(false, kRelaxed);
-  if (!sendBody(session.channel, stop.announcement(*why, status.draw.load(kRelaxed))))
-    return letGo(session.channel);
+  if (!sendBody(session.channel, stop.announcement(*why, status.draw()))) return letGo(session.channel);
   serve(session.channel, [&](const wire::MessageT& request) { return stop.answer(request); });
 }
 
@@ -244,7 +281,7 @@ void onExit() {
   armed.store(false, kRelaxed);
   wire::ExitingT exiting;
   exiting.frames = status.frame.load(kRelaxed);
-  exiting.draws = status.draw.load(kRelaxed);
+  exiting.draws = status.draw();
   sendBody(session.channel, std::move(exiting));
   letGo(session.channel);
 }
@@ -254,27 +291,41 @@ void onExit() {
 namespace shadestep::calls {
 
 void onDraw(const DrawCall& call) {
-  if (compilesOnly()) return;
-  if (!agent::armed.load(agent::kRelaxed)) {
-    agent::countDraw();
-    return;
-  }
+  if (agent::drawsNothing()) return;
+  if (!agent::armed.load(agent::kRelaxed)) return agent::countDraw();
   const std::lock_guard lock(agent::numbering());
-  const std::uint64_t draw = agent::countDraw();
-  const std::uint64_t frame = status.frame.load(agent::kRelaxed);
-  if (agent::reached(frame, draw)) agent::stopAtDraw(call, frame, draw);
+  const agent::Number number = agent::number();
+  if (agent::waitsFor(number)) agent::stopAtDraw(call, number);
 }
 
-bool stopsAtNextDraw() {
-  if (!agent::armed.load(agent::kRelaxed)) return false;
-  return agent::reached(status.frame.load(agent::kRelaxed), status.draw.load(agent::kRelaxed));
+bool beginDraw() {
+  if (agent::drawsNothing()) return false;
+  if (!agent::armed.load(agent::kRelaxed)) {
+    agent::countDraw();
+    return false;
+  }
+  const std::lock_guard lock(agent::numbering());
+  agent::begun = agent::number();
+  const bool waits = agent::waitsFor(agent::begun);
+  if (waits) agent::waits_for_begun.store(true, agent::kRelaxed);
+  return waits;
+}
+
+void stopAtBegun(const DrawCall& call) {
+  const std::lock_guard lock(agent::numbering());
+  agent::waits_for_begun.store(false, agent::kRelaxed);
+  agent::stopAtDraw(call, agent::begun);
 }
 
 void onPresent() {
   agent::endFrameOfCalls();
-  const std::uint64_t draws = status.draw.exchange(0, agent::kRelaxed);
+  std::uint64_t earlier = status.earlier_draws.load(), begun = 0;
+  do {
+    begun = status.draws();  // after `earlier`: no other thread's frame may end between the two
+  } while (!status.earlier_draws.compare_exchange_weak(earlier, begun));
+  const std::uint64_t draws = begun - earlier;
   const std::uint64_t frame = status.frame.fetch_add(1, agent::kRelaxed);
-  if (!agent::armed.load(agent::kRelaxed)) return;
+  if (!agent::armed.load(agent::kRelaxed) || agent::waits_for_begun.load(agent::kRelaxed)) return;
   // The frame that was asked for is over: its draw was missed, or the session wants to hear of every frame.
   const std::uint64_t wanted = agent::stop_frame.load(agent::kRelaxed);
   if (frame >= wanted || agent::report_frames.load(agent::kRelaxed)) agent::stopAtFrameEnd(frame, draws);

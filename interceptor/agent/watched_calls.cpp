@@ -88,7 +88,7 @@ bool isGl(const char* name) {
 
 // Asking costs a driver nothing where there is no error; what there is the program will still be told.
 std::uint32_t errorAfter(const char* name) {
-  if (!isGl(name) || std::strcmp(name, "glGetError") == 0 || calls::betweenBeginAndEnd()) return 0;
+  if (!isGl(name) || std::strcmp(name, "glGetError") == 0 || calls::betweenBeginAndEnd) return 0;
   return dispatch::currentContext() != nullptr ? guard::peekError() : 0;
 }
 

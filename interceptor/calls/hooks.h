@@ -35,11 +35,14 @@ struct DrawCall {
 
 // Before the real call of every draw. On the program's hot path: cheap unless it stops.
 void onDraw(const DrawCall& call);
-// Whether onDraw would stop at the next draw, as far as is known now.
-bool stopsAtNextDraw();
+// The same in two steps, for a draw that begins before it can be replayed: where beginDraw says that the
+// session waits for this draw, no other stops until stopAtBegun with it, on the same thread.
+bool beginDraw();
+void stopAtBegun(const DrawCall& call);
 
-// Whether this thread is between glBegin and glEnd, where nothing may be asked.
-bool betweenBeginAndEnd();
+// Whether this thread is between glBegin and glEnd, where nothing may be asked and no call is a draw of its
+// own.
+extern constinit thread_local bool betweenBeginAndEnd;
 
 // Whether this thread compiles a display list; what then comes that makes calls of it impossible to replay.
 extern constinit thread_local bool compilesLists;

@@ -25,7 +25,6 @@ using dispatch::gl;
 constinit thread_local GLuint list = 0;
 constinit thread_local GLenum list_mode = 0;
 
-constinit thread_local bool between = false;
 constinit thread_local bool refused = false;  // a call since glBegin
 
 // The commands that may stand between glBegin and glEnd (OpenGL 4.6 compatibility, 10.7.5, and extensions).
@@ -105,11 +104,21 @@ bool refusesToBegin(GLenum mode) {
   return guard::clearErrors();
 }
 
+// Records the draw that the session waits for, or says why not: then it stops here.
+bool records(GLenum mode) {
+  DrawCall call = told(mode);
+  if (!compilingList() && !refusesToBegin(mode)) {
+    call.reason = obstacle();
+    if (call.reason == nullptr) list = gl().GenLists(1);
+    if (list != 0) return true;
+  }
+  stopAtBegun(call);
+  return false;
+}
+
 }  // namespace
 
-bool betweenBeginAndEnd() {
-  return between;
-}
+constinit thread_local bool betweenBeginAndEnd = false;
 
 bool refusesNow(const CallDescription& call) {
   if (list == 0 || allowedBetween(call.name)) return false;
@@ -118,29 +127,19 @@ bool refusesNow(const CallDescription& call) {
 }
 
 void replace_glBegin(GLenum mode) {
-  between = true;
-  if (list == 0 && !compilingList() && stopsAtNextDraw() && !refusesToBegin(mode)) {
-    const char* const reason = obstacle();
-    if (reason == nullptr) list = gl().GenLists(1);
-    if (list != 0) {
-      list_mode = mode;
-      refused = false;
-      holdWatching(true);
-      gl().NewList(list, GL_COMPILE);
-      return gl().Begin(mode);
-    }
-    DrawCall call = told(mode);
-    call.reason = reason;
-    onDraw(call);
-  } else {
-    onDraw(told(mode));
+  if (beginDraw() && records(mode)) {
+    list_mode = mode;
+    refused = false;
+    holdWatching(true);
+    gl().NewList(list, GL_COMPILE);
   }
   gl().Begin(mode);
+  betweenBeginAndEnd = mode <= GL_PATCHES;  // else refused
 }
 
 void replace_glEnd() {
   gl().End();
-  between = false;
+  betweenBeginAndEnd = false;
   if (list == 0) return;
   gl().EndList();
   holdWatching(false);
@@ -149,7 +148,7 @@ void replace_glEnd() {
   DrawCall call = told(list_mode);
   call.replay = replayList;
   call.arguments = &drawn;
-  onDraw(call);
+  stopAtBegun(call);
   gl().CallList(drawn);
   gl().DeleteLists(drawn, 1);
   if (refused) gl().End();  // without glBegin: the same error as the refused calls'

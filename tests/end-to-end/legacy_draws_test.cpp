@@ -64,6 +64,20 @@ TEST(LegacyDraws, RefuseWhatOpenGlRefuses) {
   EXPECT_EQ(readFile(scratch.file("bare")), readFile(scratch.file("debugged")));
 }
 
+// Another thread draws between glBegin and glEnd: the draw that began first has the lower number, whether the
+// debugger waits for it or not, and is the one that is shown.
+TEST(LegacyDraws, AreNumberedWhereTheyBeginAmongThreads) {
+  const double reds[] = {0.25, 0.5, 0.75, 1};
+  for (int draw = 0; draw < 4; ++draw) {
+    const Scratch scratch;
+    const Finished debugged = scratch.shadestep({"debug", "--draw", std::to_string(draw), "--at", "6",
+                                                 "--print", "red", "--pixel", "7,9", "--json", "--continue"},
+                                                {binary("programs/begin-among-threads")});
+    ASSERT_EQ(debugged.status, 0) << draw << ": " << debugged.err;
+    EXPECT_EQ(debugged.json().at("values").at("red").at("at_pixel"), reds[draw]);
+  }
+}
+
 TEST(LegacyDraws, AreVerified) {
   const Scratch scratch;
   const Finished verified =

@@ -388,7 +388,7 @@ TEST(Situations, debugCallbacksHearNothing) {
 TEST(Situations, aForkedChildGoesItsOwnWay) {
   Session session(SITUATION, "forked", "");
   expectHalfEverywhere(session, "0.5");
-  EXPECT_EQ(session.page().draws.load(), 1U);
+  EXPECT_EQ(session.page().draws(), 1U);
   session.resumeToEnd();
   const auto exiting = session.receive();
   ASSERT_NE(exiting, nullptr);

@@ -88,7 +88,7 @@ TEST_P(AgentInScene, saysHelloAndCountsWithoutStopping) {
   EXPECT_EQ(session->hello().pid, session->scene().pid());
   EXPECT_EQ(std::filesystem::path(session->hello().program), std::filesystem::canonical(GetParam().program));
   finishUntouched(*session);
-  EXPECT_EQ(session->page().draws.load(), 2U);
+  EXPECT_EQ(session->page().draws(), 2U);
   EXPECT_EQ(session->page().frame.load(), 0U);
   EXPECT_EQ(session->page().used_gl.load(), 1U);
 }
@@ -106,7 +106,7 @@ TEST_P(AgentInScene, stopsAtTheDrawAndDescribesIt) {
   EXPECT_EQ(stopped->mode, 4U);  // GL_TRIANGLES
   EXPECT_EQ(stopped->count, 3);
   EXPECT_EQ(stopped->instances, old() ? 1 : 2);
-  EXPECT_EQ(session->page().draw.load(), 2U);
+  EXPECT_EQ(session->page().draw(), 2U);
 
   const wire::DrawT draw = session->describe();
   EXPECT_EQ(draw.program_reason, "");
