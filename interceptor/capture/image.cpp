@@ -11,6 +11,8 @@ using dispatch::gl;
 
 GLenum bindingOf(GLenum target) {
   switch (target) {
+    case GL_TEXTURE_2D:
+      return GL_TEXTURE_BINDING_2D;
     case GL_TEXTURE_2D_MULTISAMPLE:
       return GL_TEXTURE_BINDING_2D_MULTISAMPLE;
     case GL_TEXTURE_2D_MULTISAMPLE_ARRAY:
@@ -24,6 +26,21 @@ GLenum undecodedFormat(GLenum internal_format) {
   return internal_format == GL_SRGB8_ALPHA8 ? GL_RGBA8 : internal_format == GL_SRGB8 ? GL_RGB8 : 0;
 }
 
+// OpenGL ES has no renderbuffer with 32 bits of depth, though windows may have them, and textures.
+bool needsTexture(const guard::ContextFacts& facts, GLenum internal_format) {
+  return facts.es && internal_format == GL_DEPTH_COMPONENT32;
+}
+
+// Without contents, also where the program has a buffer bound to take them from.
+void allocateDepth(int width, int height) {
+  GLint unpacked = 0;
+  gl().GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &unpacked);
+  gl().BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  gl().TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, width, height, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+                  nullptr);
+  gl().BindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(unpacked));
+}
+
 // The texture is bound to `target`. Storage that cannot change only where a view needs it: older drivers lack
 // it.
 void allocate(const DrawTarget& shape, GLenum target, GLenum format, bool view) {
@@ -33,7 +50,9 @@ void allocate(const DrawTarget& shape, GLenum target, GLenum format, bool view) 
   const GLsizei layers = shape.layers;
   const GLsizei samples = shape.samples;
   const bool storage = view || !dispatch::available("glTexImage2DMultisample");
-  if (target == GL_TEXTURE_2D_ARRAY) {
+  if (target == GL_TEXTURE_2D) {
+    allocateDepth(width, height);
+  } else if (target == GL_TEXTURE_2D_ARRAY) {
     gl().TexStorage3D(target, 1, format, width, height, layers);
   } else if (target == GL_TEXTURE_2D_MULTISAMPLE) {
     storage ? gl().TexStorage2DMultisample(target, samples, format, width, height, fixed)
@@ -68,7 +87,7 @@ void attachLayer(GLenum framebuffer, GLenum attachment, const AttachedTexture& i
 
 Image::Image(const guard::ContextFacts& facts, const DrawTarget& shape, GLenum internal_format)
     : layered_(shape.layers > 0) {
-  if (shape.layers > 0 || shape.samples > 0) {
+  if (shape.layers > 0 || shape.samples > 0 || needsTexture(facts, internal_format)) {
     makeTexture(facts, shape, internal_format);
     return;
   }
@@ -84,9 +103,11 @@ Image::~Image() {
 }
 
 void Image::makeTexture(const guard::ContextFacts& facts, const DrawTarget& shape, GLenum internal_format) {
-  texture_.target = shape.samples == 0  ? GL_TEXTURE_2D_ARRAY
-                    : shape.layers == 0 ? GL_TEXTURE_2D_MULTISAMPLE
-                                        : GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+  if (shape.samples == 0) {
+    texture_.target = shape.layers == 0 ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY;
+  } else {
+    texture_.target = shape.layers == 0 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+  }
   const GLenum view_format = shape.samples > 0 ? undecodedFormat(internal_format) : 0;
   GLint before = 0;
   gl().GetIntegerv(bindingOf(texture_.target), &before);

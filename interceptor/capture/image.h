@@ -1,6 +1,7 @@
 // One image of the agent's own framebuffer: a renderbuffer, or, where the draw's target has layers or
-// samples, a texture, so that each of them can be read alone. Runs inside the program under debug: throws
-// nothing, starts no thread, calls GL only through dispatch::gl().
+// samples, a texture, so that each of them can be read alone; a texture, too, where no renderbuffer has the
+// format. Runs inside the program under debug: throws nothing, starts no thread, calls GL only through
+// dispatch::gl().
 #pragma once
 
 #include "interceptor/capture/draw_target.h"

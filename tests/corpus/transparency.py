@@ -2,9 +2,9 @@
 """Runs piglit's OpenGL tests bare and under shadestep in turn, and compares what they say: every test and every subtest.
 
     scripts/transparency [PATTERN...] [--sample N] [--seed N] [--minutes M] [--every-draw] [--jobs 2] [--out DIR]
-                         [--no-idle] [--resume]
+                         [--no-idle] [--resume] [--without PATTERN]...
 
-PATTERN: of names as piglit gives them (spec@arb_draw_instanced@*), and for shader tests of their paths
+PATTERN, and of those that are left out: of names as piglit gives them (spec@arb_draw_instanced@*), and for shader tests of their paths
 (tests/spec/glsl-1.30/*). Default: all of tests/spec; --generated: the generated shader tests too. --every-draw also runs each test with one
 capture at every draw, --no-idle then leaves out the run without captures. Tests come in an order that --seed chooses, the same share of every directory at any time, so that
 --sample and --minutes cut off a fair part. What differs is run again, as often as bare: a test that does not say the same each
@@ -150,6 +150,10 @@ class Runner:
         return entry
 
 
+def matches(name: str, patterns: list[str]) -> bool:
+    return any(fnmatch.fnmatch(name, pattern) for pattern in patterns)
+
+
 def table(entries: list[dict], kinds: list[str]) -> str:
     header = ["directory", "tests", "skipped by the driver", "unsteady"]
     header += [f"{kind}: {what}" for kind in kinds for what in ("out of time", "differ")]
@@ -172,6 +176,7 @@ def table(entries: list[dict], kinds: list[str]) -> str:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("patterns", nargs="*", metavar="PATTERN")
+    parser.add_argument("--without", action="append", default=[], metavar="PATTERN")
     parser.add_argument("--sample", type=int, help="only N of them")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, help="begin no test after this time")
@@ -193,7 +198,7 @@ def main() -> int:
         print(f"transparency: skipped: {piglit.HOW_TO_GET_IT if root is None else 'Xvfb is not installed'}", file=sys.stderr)
         return 77
     tests = compiled_tests(root) | shader_tests(root, ["tests"] + ["generated_tests"] * options.generated)
-    names = [n for n in tests if not options.patterns or any(fnmatch.fnmatch(n, p) for p in options.patterns)]
+    names = [n for n in tests if matches(n, options.patterns or ["*"]) and not matches(n, options.without)]
     names = fair_order(names, options.seed)[: options.sample]
     if not names or not options.shadestep.exists():
         print("transparency: " + ("no test matches" if options.shadestep.exists() else f"no {options.shadestep}; build first"),

@@ -142,5 +142,22 @@ TEST(Programs, OpenGlEsIsFollowedToo) {
   EXPECT_EQ(lastValue(run, "sum"), 0 + 1 + 2 + 3 + 4);
 }
 
+// Depth decides which threads of the second draw run: those right of the diagonal, and on it.
+TEST(Programs, WindowsOfOpenGlEsWith32BitsOfDepth) {
+  const Scratch scratch;
+  if (scratch.run({program("es-window")}).status == 77) GTEST_SKIP() << "no pbuffer with 32 bits of depth";
+  const Finished far = scratch.shadestep(
+      {"debug", "--draw", "1", "--at", "8", "--print", "red", "--csv", "red.csv", "--json", "--continue"},
+      {program("es-window")});
+  ASSERT_EQ(far.status, 0) << far.err;
+  EXPECT_EQ(far.json().at("check").at("outputs"), "identical");
+  const auto rows = readCsv(scratch.file("red.csv"));
+  EXPECT_EQ(rows.size(), 64u * 65u / 2);
+  for (const auto& row : rows) {
+    ASSERT_GE(std::stoi(row.at(0)) + std::stoi(row.at(1)), 63);
+    ASSERT_EQ(row.at(2), "0.75");
+  }
+}
+
 }  // namespace
 }  // namespace shadestep::test

@@ -10,12 +10,24 @@
 #include <initializer_list>
 #include <utility>
 
-// A context of OpenGL ES 3.MINOR, current while it lives, with a target of SIZE x SIZE pixels.
+// A context of OpenGL ES 3.MINOR, current while it lives, with a target of SIZE x SIZE pixels: a
+// renderbuffer, or a pbuffer with 32 bits of depth (status 77: there is none).
 class EsContext {
  public:
-  EsContext(int minor, int size) {
+  enum class Target { renderbuffer, deep_window };
+  EsContext(int minor, int size, Target target = Target::renderbuffer) {
     display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+    const EGLint depth = target == Target::deep_window ? 32 : 0;
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE,
+                             EGL_OPENGL_ES3_BIT,
+                             EGL_SURFACE_TYPE,
+                             EGL_PBUFFER_BIT,
+                             EGL_RED_SIZE,
+                             8,
+                             EGL_ALPHA_SIZE,
+                             8,
+                             EGL_DEPTH_SIZE,
+                             depth,
                              EGL_NONE};
     const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, minor, EGL_NONE};
     EGLConfig config = nullptr;
@@ -23,19 +35,16 @@ class EsContext {
     if (!eglInitialize(display_, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_ES_API) ||
         !eglChooseConfig(display_, wanted, &config, 1, &configs) || configs == 0) {
       std::fprintf(stderr, "no OpenGL ES on EGL\n");
-      std::exit(1);
+      std::exit(depth > 0 ? 77 : 1);
     }
     EGLContext context = eglCreateContext(display_, config, EGL_NO_CONTEXT, version);
-    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) std::exit(1);
-    GLuint framebuffer = 0;
-    GLuint target = 0;
-    glGenFramebuffers(1, &framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glGenRenderbuffers(1, &target);
-    glBindRenderbuffer(GL_RENDERBUFFER, target);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size, size);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
-    glViewport(0, 0, size, size);
+    EGLSurface surface = EGL_NO_SURFACE;
+    if (target == Target::deep_window) {
+      const EGLint extent[] = {EGL_WIDTH, size, EGL_HEIGHT, size, EGL_NONE};
+      surface = eglCreatePbufferSurface(display_, config, extent);
+    }
+    if (!eglMakeCurrent(display_, surface, surface, context)) std::exit(1);
+    if (target == Target::renderbuffer) drawToRenderbuffer(size);
   }
   ~EsContext() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -45,6 +54,18 @@ class EsContext {
   EsContext& operator=(const EsContext&) = delete;
 
  private:
+  static void drawToRenderbuffer(int size) {
+    GLuint framebuffer = 0;
+    GLuint colour = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glGenRenderbuffers(1, &colour);
+    glBindRenderbuffer(GL_RENDERBUFFER, colour);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size, size);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour);
+    glViewport(0, 0, size, size);
+  }
+
   EGLDisplay display_ = EGL_NO_DISPLAY;
 };
 
