@@ -44,6 +44,9 @@ void stopAtBegun(const DrawCall& call);
 // own.
 extern constinit thread_local bool betweenBeginAndEnd;
 
+// What glBegin began is at its end, by glEnd or by a list that holds it.
+void endBegun();
+
 // Whether this thread compiles a display list; what then comes that makes calls of it impossible to replay.
 extern constinit thread_local bool compilesLists;
 void noteListed(const char* reason);

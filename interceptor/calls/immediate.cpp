@@ -127,6 +127,7 @@ bool refusesNow(const CallDescription& call) {
 }
 
 void replace_glBegin(GLenum mode) {
+  noteBegin();
   if (beginDraw() && records(mode)) {
     list_mode = mode;
     refused = false;
@@ -134,11 +135,16 @@ void replace_glBegin(GLenum mode) {
     gl().NewList(list, GL_COMPILE);
   }
   gl().Begin(mode);
-  betweenBeginAndEnd = mode <= GL_PATCHES;  // else refused
+  if (!compilesOnly()) betweenBeginAndEnd = mode <= GL_PATCHES;  // else refused
 }
 
 void replace_glEnd() {
+  noteEnd();
   gl().End();
+  if (!compilesOnly()) endBegun();
+}
+
+void endBegun() {
   betweenBeginAndEnd = false;
   if (list == 0) return;
   gl().EndList();

@@ -60,7 +60,7 @@ TEST(LegacyDraws, RefuseWhatOpenGlRefuses) {
   const Finished run = scratch.shadestep({"run", "--every-draw", "--json"},
                                          {binary("programs/between-begin-end"), "debugged"});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.json().at("debugged"), 22);
+  EXPECT_EQ(run.json().at("debugged"), 23);
   EXPECT_EQ(readFile(scratch.file("bare")), readFile(scratch.file("debugged")));
 }
 

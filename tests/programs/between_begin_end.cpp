@@ -92,6 +92,35 @@ void main()
   allowed("glVertexAttribI1i", [] { glVertexAttribI1i(3, 1); });
   allowed("glEvalPoint1", [] { glEvalPoint1(0); });
 
+  // glBegin and glEnd in lists of their own, and with a list for one of them.
+  const GLuint begin = glGenLists(3);
+  const GLuint corners = begin + 1;
+  const GLuint end = begin + 2;
+  glNewList(begin, GL_COMPILE);
+  glBegin(GL_TRIANGLES);
+  glEndList();
+  glNewList(corners, GL_COMPILE);
+  glVertex2f(-1, -1);
+  glVertex2f(1, -1);
+  glVertex2f(0, 1);
+  glEndList();
+  glNewList(end, GL_COMPILE);
+  glEnd();
+  glEndList();
+  glColor3f(0, 1, 0);
+  glCallList(begin);
+  glCallList(corners);
+  glCallList(end);
+  if (context.pixel(32, 20) != std::array{0, 255, 0, 255})
+    fail("lists for glBegin and glEnd draw something else");
+  glColor3f(0, 0, 1);
+  glBegin(GL_TRIANGLES);
+  glCallList(corners);
+  glCallList(end);
+  if (context.pixel(32, 20) != std::array{0, 0, 255, 255}) fail("a list for glEnd draws something else");
+  if (glGetString(GL_VERSION) == nullptr || glGetError() != GL_NO_ERROR)
+    fail("lists for glBegin and glEnd leave an error");
+
   // What refuses to draw at all: its error comes with glBegin, whether there are vertices or not.
   glBindFramebuffer(GL_FRAMEBUFFER, incompleteFramebuffer());
   glBegin(GL_TRIANGLES);
