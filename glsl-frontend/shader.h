@@ -55,6 +55,8 @@ struct Variable {
   bool parameter_out = false;   // for parameters: `out` or `inout`
   bool written = false;         // some statement of the shader may change it
   bool read = false;
+  // mediump or lowp: in GLSL ES the driver keeps its floats in 16 bits or in 32, as it likes.
+  bool reduced_precision = false;
 };
 
 // One declared name in a declaration statement: `int i = 1, j = i++;` has two.

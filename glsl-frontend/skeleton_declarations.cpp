@@ -26,7 +26,15 @@ Qualifiers& note(Qualifiers& qualifiers, std::string_view word) {
   if (word == "varying") qualifiers.varying = true;
   if (word == "attribute") qualifiers.attribute = true;
   if (word == "unsigned") qualifiers.is_unsigned = true;
+  if (word == "highp") qualifiers.highp = true;
+  if (word == "mediump" || word == "lowp") qualifiers.reduced_precision = true;
   return qualifiers;
+}
+
+// `precision mediump float;`, until the end of the scope.
+void Parser::precisionStatement() {
+  if (is("float", 2)) reduces_floats_ = !is("highp", 1);
+  skipTo(";");
 }
 
 // In an expression a name is never followed by a name: so this tells declarations without knowing the
@@ -195,6 +203,8 @@ VariableId Parser::declare(const Qualifiers& qualifiers, TokenIndex name_token) 
     return before;
   }
   const VariableId variable = newVariable(name, storageOf(qualifiers, name), name_token);
+  out_.variables[static_cast<std::size_t>(variable)].reduced_precision =
+      qualifiers.reduced_precision || (reduces_floats_ && !qualifiers.highp);
   bind(name, variable);
   return variable;
 }

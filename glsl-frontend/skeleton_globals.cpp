@@ -5,10 +5,7 @@ namespace shadestep::frontend::skeleton {
 
 void Parser::externalDeclaration() {
   if (accept(";")) return;
-  if (is("precision")) {
-    skipTo(";");
-    return;
-  }
+  if (is("precision")) return precisionStatement();
   const Position start = at_;
   const DeclarationHead head = declarationHead();
   if (is(";")) {  // struct S { ... };  layout(...) in;

@@ -22,8 +22,9 @@ struct Qualifiers {
   bool in = false, out = false, inout = false, varying = false, attribute = false;
   bool is_unsigned = false;  // `unsigned int` (EXT_gpu_shader4)
   bool subroutine = false;
-  std::vector<std::string> implements;  // the types of subroutine(...)
-  TokenRange layout;                    // the last layout(...)
+  bool highp = false, reduced_precision = false;  // mediump or lowp
+  std::vector<std::string> implements;            // the types of subroutine(...)
+  TokenRange layout;                              // the last layout(...)
   bool any = false;
 };
 
@@ -115,7 +116,8 @@ class Parser {
   VariableId lookup(const std::string& name) const;
 
   struct Scope {
-    explicit Scope(Parser& opened) : parser(opened), visible(opened.visible_) {
+    explicit Scope(Parser& opened)
+        : parser(opened), visible(opened.visible_), reduces_floats(opened.reduces_floats_) {
       ++parser.depth_;
       parser.bound_.emplace_back();
     }
@@ -124,11 +126,13 @@ class Parser {
       parser.bound_.pop_back();
       --parser.depth_;
       parser.visible_ = visible;
+      parser.reduces_floats_ = reduces_floats;
     }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
     Parser& parser;
     int visible;
+    bool reduces_floats;
   };
   VariableId newVariable(const std::string& name, Storage storage, TokenIndex declared);
 
@@ -157,6 +161,7 @@ class Parser {
 
   bool declarationStartsHere() const;
   bool qualifierStartsHere() const;
+  void precisionStatement();
   void qualifier(Qualifiers& qualifiers);
   DeclarationHead declarationHead();
   bool arrayedTypeStartsHere() const;
@@ -249,6 +254,7 @@ class Parser {
   Skeleton& out_;
   std::vector<TokenIndex> index_;
   Position at_ = 0;
+  bool reduces_floats_ = false;  // floats without a precision qualifier are mediump or lowp
   int depth_ = 0;
   int visible_ = kNone;
   std::unordered_map<std::string, std::vector<Meaning>> meanings_;

@@ -62,7 +62,7 @@ StatementId Parser::statement(StatementId parent) {
 StatementId Parser::simpleStatement(StatementId parent) {
   if (is("precision")) {
     const StatementId id = open(StatementKind::declaration, parent);
-    skipTo(";");
+    precisionStatement();
     close(id);
     const TokenRange tokens = statementRef(id).tokens;
     statementRef(id).type_tokens = tokens;

@@ -88,10 +88,14 @@ void WindowCheck::compare(Window& window, const Item& item) {
   for (std::size_t i = 0; i < item.found.values.size(); ++i) {
     const WatchedValues& one = item.found.values[i];
     const WatchedValues& other = again.values.at(i);
+    const auto same = [&](std::size_t p) {
+      return i < first ? std::equal(one.at(p), one.at(p) + one.stride, other.at(p))
+                       : agree(shader, item.parts[i - first], one.at(p), other.at(p));
+    };
     std::size_t differing = 0;
     std::size_t example = 0;
     for (std::size_t p = 0; p < again.marks.size(); ++p) {
-      if (!again.reachedAt(p) || std::equal(one.at(p), one.at(p) + one.stride, other.at(p))) continue;
+      if (!again.reachedAt(p) || same(p)) continue;
       ++differing;
       example = p;
     }

@@ -1,6 +1,8 @@
 #include "session/verify_samples.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <random>
@@ -189,6 +191,32 @@ bool mayBeUndefined(const Shader& shader, VariableId id) {
   }
   // A global's initializer is part of no statement.
   return variable.storage == Storage::global && !frontend::hasInitializer(shader, id);
+}
+
+static bool agreeReduced(std::uint32_t one, std::uint32_t other) {
+  constexpr float kUnit = 0x1p-10F;      // of mediump's least precision, relative
+  constexpr float kSmallest = 0x1p-14F;  // below, units no longer shrink
+  const float a = std::bit_cast<float>(one);
+  const float b = std::bit_cast<float>(other);
+  if (one == other || (std::isnan(a) && std::isnan(b))) return true;
+  return std::abs(a - b) <= 2 * kUnit * std::max({std::abs(a), std::abs(b), kSmallest});
+}
+
+bool agree(const Shader& shader, const Part& part, const std::uint32_t* one, const std::uint32_t* other) {
+  const bool es = shader.profile == "es" || shader.version == 100;
+  const bool reduced = es && shader.variables[static_cast<std::size_t>(part.variable)].reduced_precision;
+  for (const frontend::Component& component : frontend::components(part.type)) {
+    frontend::Type scalar;
+    scalar.basic = component.basic;
+    const int words = frontend::wordCount(scalar);
+    const bool same = reduced && component.basic == frontend::Basic::float_
+                          ? agreeReduced(*one, *other)
+                          : std::equal(one, one + words, other);
+    if (!same) return false;
+    one += words;
+    other += words;
+  }
+  return true;
 }
 
 bool isForInit(const Shader& shader, const Statement& at) {

@@ -1,6 +1,7 @@
 // Which threads and which values `verify` looks at.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,11 @@ std::vector<Part> partsInScope(const frontend::Shader&, const instrumenter::Prob
 // May words of the variable be read before the shader has given them a value? Two plans may then differ in
 // them.
 bool mayBeUndefined(const frontend::Shader&, frontend::VariableId);
+
+// Whether two captures of the same value agree: bit for bit, but for floats of mediump and lowp in GLSL ES,
+// which the driver may round to 16 bits in one pass and not in the other: to two units in the last of their
+// 11 binary digits. Both are `part`'s words.
+bool agree(const frontend::Shader&, const Part& part, const std::uint32_t* one, const std::uint32_t* other);
 
 bool isForInit(const frontend::Shader&, const frontend::Statement&);
 

@@ -142,6 +142,14 @@ TEST(Programs, OpenGlEsIsFollowedToo) {
   EXPECT_EQ(lastValue(run, "sum"), 0 + 1 + 2 + 3 + 4);
 }
 
+// Mesa keeps floats of mediump in 16 bits here and in 32 there.
+TEST(Programs, ReducedPrecisionOfOpenGlEsIsNoMismatch) {
+  const Scratch scratch;
+  const Finished verified = scratch.shadestep({"verify", "--json"}, {program("es-target")});
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+  EXPECT_EQ(verified.json().at("value_mismatch"), 0);
+}
+
 // Depth decides which threads of the second draw run: those right of the diagonal, and on it.
 TEST(Programs, WindowsOfOpenGlEsWith32BitsOfDepth) {
   const Scratch scratch;

@@ -66,6 +66,17 @@ TEST(Statements, QualifiedAndStructDeclarationsAreDeclarations) {
   EXPECT_EQ(text(shader, statement(shader, "struct").type_tokens), "struct L { int n ; }");
 }
 
+TEST(Variables, KnowWhichHaveReducedPrecision) {
+  const Shader shader = analysed(
+      "#version 300 es\nhighp float before;\nprecision mediump float;\nconst float a = 1.0;\nhighp vec2 b;\n"
+      "out lowp vec4 c;\nvoid main() {\n { precision highp float; float d = a; mediump float e = d; }\n vec2 "
+      "f = "
+      "b;\n c = vec4(f, f);\n}");
+  std::string reduced;
+  for (const Variable& one : shader.variables) reduced += one.reduced_precision ? one.name + " " : "";
+  EXPECT_EQ(reduced, "a c e f ");
+}
+
 TEST(Scopes, HoldWhatIsDeclaredBeforeInnermostLast) {
   const Shader shader = analysedMain("float a = g;\nfloat b = a;\n{ float c = b; c = 1.0; }\nfloat d = 2.0;",
                                      "float g = 1.0;\n");
