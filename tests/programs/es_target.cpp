@@ -13,7 +13,6 @@ void main()
 )glsl"},
                 {GL_FRAGMENT_SHADER, R"glsl(#version 310 es
 precision mediump float;
-const float kStep = 0.0041;
 out vec4 colour;
 void main()
 {
@@ -21,7 +20,7 @@ void main()
     highp int sum = 0;
     for (highp int i = 0; i < x; ++i)
         sum += i;
-    colour = vec4(float(sum) / 255.0, kStep * float(x), 0.0, 1.0);
+    colour = vec4(float(sum) / 255.0, 0.0, 0.0, 1.0);
 }
 )glsl"}});
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -1,28 +1,31 @@
-// OpenGL ES 3.0 on an EGL pbuffer of 64 x 64 pixels with 32 bits of depth, which no renderbuffer of ES has: a
-// near triangle over the lower left half, then a far one everywhere, which is seen in the rest only. Ends
-// with status 77 where the driver has no such surface.
+// GLSL ES 1.00, with floats of mediump, on an EGL pbuffer of 64 x 64 pixels with 32 bits of depth, which no
+// renderbuffer of ES has: a near triangle over the lower left half, then a far one everywhere, which is seen
+// in the rest only. Ends with status 77 where the driver has no such surface.
 #include <array>
 
 #include "es_program.h"
 
 int main() {
   const EsContext context(0, 64, EsContext::Target::deep_window);
-  useEsProgram({{GL_VERTEX_SHADER, R"glsl(#version 300 es
+  useEsProgram({{GL_VERTEX_SHADER, R"glsl(attribute vec2 corner;
 uniform float scale;
 uniform float depth;
 void main()
 {
-    gl_Position = vec4(scale * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, depth, 1.0);
+    gl_Position = vec4(scale * corner - 1.0, depth, 1.0);
 }
 )glsl"},
-                {GL_FRAGMENT_SHADER, R"glsl(#version 300 es
-precision highp float;
+                {GL_FRAGMENT_SHADER, R"glsl(precision mediump float;
 uniform float brightness;
-out vec4 colour;
+uniform int times;
 void main()
 {
     float red = brightness;
-    colour = vec4(red, 0.0, 0.0, 1.0);
+    highp vec2 place = gl_FragCoord.xy;
+    float folded = fract(place.x * place.y * 0.0001);
+    for (int i = 0; i < times; i++)
+        folded = fract(3.0 * folded);
+    gl_FragColor = vec4(red, folded, folded, 1.0);
 }
 )glsl"}});
   GLint program = 0;
@@ -30,6 +33,10 @@ void main()
   const auto set = [&](const char* uniform, float value) {
     glUniform1f(glGetUniformLocation(static_cast<GLuint>(program), uniform), value);
   };
+  const float corners[] = {0, 0, 1, 0, 0, 1};
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, corners);
+  glEnableVertexAttribArray(0);
+  glUniform1i(glGetUniformLocation(static_cast<GLuint>(program), "times"), 5);
   // A source of pixels too small for any: nothing may read from it.
   GLuint pixels = 0;
   glGenBuffers(1, &pixels);
