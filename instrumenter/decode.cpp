@@ -126,6 +126,28 @@ void FieldDecoder::decode(const std::uint32_t* thread, std::uint32_t* out) const
   }
 }
 
+namespace {
+
+template <std::size_t kWords>
+void copyWords(const std::uint32_t* from, std::size_t stride, std::size_t count, std::uint32_t* to) {
+  for (std::size_t i = 0; i < count; ++i, from += stride, to += kWords)
+    for (std::size_t w = 0; w < kWords; ++w) to[w] = from[w];
+}
+
+}  // namespace
+
+void FieldDecoder::decode(const std::uint32_t* threads, std::size_t stride, std::size_t count,
+                          std::uint32_t* out) const {
+  if (!floats_) {
+    const std::uint32_t* from = threads + first_;
+    if (words_ == 1) return copyWords<1>(from, stride, count, out);
+    if (words_ == 2) return copyWords<2>(from, stride, count, out);
+    if (words_ == 3) return copyWords<3>(from, stride, count, out);
+    if (words_ == 4) return copyWords<4>(from, stride, count, out);
+  }
+  for (std::size_t i = 0; i < count; ++i) decode(threads + i * stride, out + i * words_);
+}
+
 std::uint32_t decodeMark(const AttachmentLayout& layout, const std::uint32_t* words) {
   return isFloat(layout.carrier) ? wholeNumber(words[0]) : words[0];
 }
@@ -134,7 +156,7 @@ std::uint32_t encodeMark(const AttachmentLayout& layout, std::uint32_t mark) {
   return isFloat(layout.carrier) ? std::bit_cast<std::uint32_t>(static_cast<float>(mark)) : mark;
 }
 
-DiscardedThreads decodeDiscarded(const AttachmentLayout& layout, const std::vector<std::uint32_t>& block) {
+DiscardedThreads decodeDiscarded(const AttachmentLayout& layout, std::span<const std::uint32_t> block) {
   DiscardedThreads result;
   if (block.size() < kDiscardedHeader || layout.discarded_words <= 4) return result;
   const auto words = static_cast<std::size_t>(layout.discarded_words);
@@ -154,7 +176,7 @@ DiscardedThreads decodeDiscarded(const AttachmentLayout& layout, const std::vect
   return result;
 }
 
-Recording decodeRecording(const RecordingLayout& layout, const std::vector<std::uint32_t>& words) {
+Recording decodeRecording(const RecordingLayout& layout, std::span<const std::uint32_t> words) {
   if (words.size() < kRecordingHeader) return refused("there is no header");
   const std::size_t room = words[1];
   const std::size_t threads = std::min(words[0], words[2]);
@@ -165,7 +187,7 @@ Recording decodeRecording(const RecordingLayout& layout, const std::vector<std::
   Recording recording;
   recording.started = words[0];
   for (std::size_t i = 0; i < threads; ++i) {
-    const auto part = std::span(words).subspan(kRecordingHeader + i * room, room);
+    const auto part = words.subspan(kRecordingHeader + i * room, room);
     std::string error;
     recording.threads.push_back(ThreadReader(layout, part).read(static_cast<std::uint32_t>(i + 1), error));
     if (!error.empty()) return refused("in thread " + std::to_string(i) + ", " + error);

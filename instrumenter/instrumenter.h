@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -294,6 +295,8 @@ class FieldDecoder {
   std::size_t words() const { return words_; }  // of the value: frontend::wordCount
   // `thread`: its words. Writes words() words to `out`.
   void decode(const std::uint32_t* thread, std::uint32_t* out) const;
+  // The same of `count` threads, whose words are `stride` apart.
+  void decode(const std::uint32_t* threads, std::size_t stride, std::size_t count, std::uint32_t* out) const;
 
  private:
   std::size_t first_, words_;
@@ -315,7 +318,7 @@ struct DiscardedThreads {
   std::uint32_t ended = 0;  // more than `threads` if there was not enough room
   std::vector<DiscardedThread> threads;
 };
-DiscardedThreads decodeDiscarded(const AttachmentLayout&, const std::vector<std::uint32_t>& block);
+DiscardedThreads decodeDiscarded(const AttachmentLayout&, std::span<const std::uint32_t> block);
 
 struct Record {
   int layout = 0;             // index into RecordingLayout::records
@@ -334,6 +337,6 @@ struct Recording {
   std::vector<ThreadRecording> threads;
   std::string error;  // a stream that does not decode is an error, never half a result
 };
-Recording decodeRecording(const RecordingLayout&, const std::vector<std::uint32_t>& words);
+Recording decodeRecording(const RecordingLayout&, std::span<const std::uint32_t> words);
 
 }  // namespace shadestep::instrumenter

@@ -201,6 +201,7 @@ SameOutput Isolation::compareOutputs(const std::vector<std::size_t>& pixels) {
 SameOutput Isolation::compareRecords(const std::vector<std::size_t>& pixels) {
   session::ExecuteOptions execute;
   execute.compare = false;
+  execute.read_outputs = true;
   const session::Prepared original = session_.prepareOriginal();
   const session::Execution expected = session_.execute(original, execute);
   const auto words = static_cast<std::size_t>(expected.feedback_words);

@@ -294,7 +294,7 @@ TextureAccesses mapTextures(session::Session& session, const std::optional<Regio
   if (executed.storage.size() < block.size())
     throw session::Error(session::Outcome::failed, "the agent's answer is incomplete; report this as a bug");
   found.check = executed.check;
-  const std::vector<std::uint32_t>& words = executed.storage;
+  const std::span<const std::uint32_t> words = executed.storage;
   found.threads = words[4];
   for (std::size_t t = 0; t < found.textures.size(); ++t) {
     TextureReads& texture = found.textures[t];

@@ -32,29 +32,56 @@ struct Entry {
 
 class Reader {
  public:
-  Reader(const Captured& captured, GeometryEmits& emits)
-      : layout_(captured.layout),
-        threads_(captured.threads),
-        in_order_(captured.layout.carrier != instrumenter::Carrier::list),
+  explicit Reader(GeometryEmits& emits)
+      : layout_(emits.captured.layout),
+        threads_(emits.captured.threads),
+        in_order_(emits.captured.layout.carrier != instrumenter::Carrier::list),
+        points_(emits.primitive == "points"),
+        least_(leastVertices(emits.primitive)),
         emits_(emits) {
     for (const Field& field : layout_.identity) identity_.emplace_back(layout_, field);
-    for (const Field& field : layout_.fields) fields_.emplace_back(layout_, field);
+    for (int i = 0; i < instrumenter::kEmitFields; ++i)
+      fields_.emplace_back(layout_, layout_.fields.at(static_cast<std::size_t>(i)));
   }
 
   void read() {
     for (std::size_t i = instrumenter::kEmitFields; i < layout_.fields.size(); ++i)
       emits_.outputs.push_back({layout_.fields[i].name, layout_.fields[i].type, 0});
     readEntries();
+    // Spans point into these, which therefore stay where they are.
+    emits_.all_vertices.reserve(entries_.size());
+    emits_.all_primitives.reserve(entries_.size());
+    emits_.all_runs.reserve(entries_.size());
     for (std::size_t first = 0; first < entries_.size();) {
       std::size_t end = first + 1;
       while (end < entries_.size() && entries_[end].sameThread(entries_[first])) ++end;
       addRun(std::span(entries_).subspan(first, end - first));
       first = end;
     }
-    sortInputs();
+    sortRuns();
+    addInputs();
   }
 
  private:
+  struct Key {
+    int primitive = 0, repeat = 0, invocation = 0;
+    std::size_t run = 0;
+
+    bool operator<(const Key& other) const {
+      return std::tie(primitive, repeat, invocation) <
+             std::tie(other.primitive, other.repeat, other.invocation);
+    }
+  };
+  struct Emitted {
+    int stream = 0, strip = 0;
+    const std::uint32_t* words = nullptr;
+
+    bool operator<(const Emitted& other) const {
+      return std::tie(stream, strip) < std::tie(other.stream, other.strip);
+    }
+    bool samePrimitive(const Emitted& other) const { return stream == other.stream && strip == other.strip; }
+  };
+
   static int number(const instrumenter::FieldDecoder& field, const std::uint32_t* entry) {
     std::uint32_t word = 0;
     field.decode(entry, &word);
@@ -95,86 +122,76 @@ class Reader {
                        keys_.back().invocation == end.invocation;
     const int repeat = again ? keys_.back().repeat + 1 : 0;
     emits_.repeats = emits_.repeats || again;
-    keys_.push_back({end.primitive, repeat, end.invocation, runs_.size()});
-    runs_.push_back(run(end, entries.first(emitted)));
-    runs_.back().beyond_limit += end.vertices - listed;
-  }
-
-  GeometryRun run(const Entry& end, std::span<const Entry> emits) const {
+    keys_.push_back({end.primitive, repeat, end.invocation, keys_.size()});
     GeometryRun run;
     run.invocation = end.invocation;
     run.vertices = end.vertices;
-    const bool points = emits_.primitive == "points";
-    std::vector<int> strips;  // of run.outputs
-    for (const Entry& entry : emits) {
-      if (emits_.max_vertices >= 0 && entry.vertices >= emits_.max_vertices) {
-        ++run.beyond_limit;
-        continue;
-      }
-      const int stream = number(instrumenter::kEmitStream, entry.words);
-      const int strip = points ? entry.vertices : number(instrumenter::kEmitStrip, entry.words);
-      std::size_t output = points ? 0 : run.outputs.size();
-      while (output > 0 && (run.outputs[output - 1].stream != stream || strips[output - 1] != strip))
-        --output;
-      if (output == 0) {
-        run.outputs.emplace_back().stream = stream;
-        strips.push_back(strip);
-        output = run.outputs.size();
-      }
-      run.outputs[output - 1].vertices.push_back(vertex(entry.words));
-    }
-    const int least = leastVertices(emits_.primitive);
-    for (OutputPrimitive& output : run.outputs) {
-      output.parts = std::max(static_cast<int>(output.vertices.size()) - least + 1, 0);
-      output.ill_formed = output.parts == 0;
-    }
-    std::stable_sort(run.outputs.begin(), run.outputs.end(),
-                     [](const OutputPrimitive& a, const OutputPrimitive& b) { return a.stream < b.stream; });
-    return run;
+    const std::size_t first = emits_.all_primitives.size();
+    const std::size_t kept = emitted > 0 ? addPrimitives(entries.first(emitted)) : 0;
+    run.beyond_limit = end.vertices - static_cast<int>(kept);
+    run.outputs = std::span(emits_.all_primitives).subspan(first);
+    emits_.all_runs.push_back(run);
   }
 
-  EmittedVertex vertex(const std::uint32_t* entry) const {
-    EmittedVertex vertex;
-    vertex.values.reserve(fields_.size() - instrumenter::kEmitFields);
-    for (std::size_t i = instrumenter::kEmitFields; i < fields_.size(); ++i) {
-      instrumenter::Value value{layout_.fields[i].type, std::vector<std::uint32_t>(fields_[i].words())};
-      fields_[i].decode(entry, value.words.data());
-      vertex.values.push_back(std::move(value));
+  // Of the vertices of one thread, stream by stream; how many are in them.
+  std::size_t addPrimitives(std::span<const Entry> emits) {
+    emitted_.clear();
+    for (const Entry& entry : emits) {
+      if (emits_.max_vertices >= 0 && entry.vertices >= emits_.max_vertices) continue;
+      emitted_.push_back({number(instrumenter::kEmitStream, entry.words),
+                          points_ ? entry.vertices : number(instrumenter::kEmitStrip, entry.words),
+                          entry.words});
     }
-    return vertex;
+    if (!std::is_sorted(emitted_.begin(), emitted_.end())) std::stable_sort(emitted_.begin(), emitted_.end());
+    for (std::size_t first = 0; first < emitted_.size();) {
+      OutputPrimitive output;
+      output.stream = emitted_[first].stream;
+      const std::size_t at = emits_.all_vertices.size();
+      std::size_t end = first;
+      for (; end < emitted_.size() && emitted_[end].samePrimitive(emitted_[first]); ++end)
+        emits_.all_vertices.push_back({emitted_[end].words});
+      output.vertices = std::span(emits_.all_vertices).subspan(at);
+      output.parts = std::max(static_cast<int>(end - first) - least_ + 1, 0);
+      output.ill_formed = output.parts == 0;
+      emits_.all_primitives.push_back(output);
+      first = end;
+    }
+    return emitted_.size();
   }
 
   // All invocations on one primitive together.
-  void sortInputs() {
-    const auto before = [](const Key& a, const Key& b) {
-      return std::tie(a.primitive, a.repeat, a.invocation) < std::tie(b.primitive, b.repeat, b.invocation);
-    };
-    if (!std::is_sorted(keys_.begin(), keys_.end(), before)) std::sort(keys_.begin(), keys_.end(), before);
-    emits_.inputs.reserve(keys_.size());
-    for (const Key& key : keys_) {
-      std::vector<InputPrimitive>& inputs = emits_.inputs;
-      if (inputs.empty() || inputs.back().primitive != key.primitive || inputs.back().repeat != key.repeat) {
-        inputs.emplace_back();
-        inputs.back().primitive = key.primitive;
-        inputs.back().repeat = key.repeat;
-      }
-      inputs.back().runs.push_back(std::move(runs_[key.run]));
-    }
+  void sortRuns() {
+    if (std::is_sorted(keys_.begin(), keys_.end())) return;
+    std::sort(keys_.begin(), keys_.end());
+    std::vector<GeometryRun> runs;
+    runs.reserve(keys_.size());
+    for (const Key& key : keys_) runs.push_back(emits_.all_runs[key.run]);
+    emits_.all_runs = std::move(runs);
   }
 
-  struct Key {
-    int primitive = 0, repeat = 0, invocation = 0;
-    std::size_t run = 0;
-  };
+  void addInputs() {
+    emits_.inputs.reserve(keys_.size());
+    for (std::size_t first = 0; first < keys_.size();) {
+      std::size_t end = first + 1;
+      while (end < keys_.size() && keys_[end].primitive == keys_[first].primitive &&
+             keys_[end].repeat == keys_[first].repeat)
+        ++end;
+      emits_.inputs.push_back({keys_[first].primitive, keys_[first].repeat,
+                               std::span(emits_.all_runs).subspan(first, end - first)});
+      first = end;
+    }
+  }
 
   const instrumenter::AttachmentLayout& layout_;
   const ThreadWords& threads_;
   bool in_order_;  // thread by thread, each with its end; else as `thread` says
+  bool points_;
+  int least_;  // vertices of an output primitive
   GeometryEmits& emits_;
   std::vector<instrumenter::FieldDecoder> identity_, fields_;
   std::vector<Entry> entries_;
-  std::vector<GeometryRun> runs_;
-  std::vector<Key> keys_;  // of the runs
+  std::vector<Emitted> emitted_;  // by one thread
+  std::vector<Key> keys_;         // of the runs
 };
 
 }  // namespace
@@ -186,13 +203,12 @@ GeometryEmits geometryEmits(Session& session) {
   if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented))
     throw Error(Outcome::cannot_debug, failure->reason);
   const auto& shader = std::get<instrumenter::EmitsShader>(instrumented);
-  const Captured captured = session.capture(instrumenter::AttachmentShader{shader.text, shader.layout});
-
   GeometryEmits emits;
+  emits.captured = session.capture(instrumenter::AttachmentShader{shader.text, shader.layout});
   const instrumenter::EmitLimits limits = instrumenter::emitLimits(session.shader());
   emits.primitive = limits.primitive;
   emits.max_vertices = limits.max_vertices;
-  emits.check = captured.execution.check;
+  emits.check = emits.captured.execution.check;
   std::string left_out;
   for (const std::string& name : shader.left_out) left_out += (left_out.empty() ? "" : ", ") + name;
   if (!left_out.empty())
@@ -202,10 +218,15 @@ GeometryEmits geometryEmits(Session& session) {
     emits.check.left_out +=
         (emits.check.left_out.empty() ? "" : "; ") +
         std::string("max_vertices is no plain number: vertices beyond it are listed, too");
-  Reader(captured, emits).read();
+  Reader(emits).read();
   for (GeometryEmits::Output& output : emits.outputs)
     output.stream = instrumenter::streamOf(session.shader(), output.name);
   return emits;
+}
+
+instrumenter::Value GeometryEmits::value(const EmittedVertex& vertex, std::size_t output) const {
+  return instrumenter::decode(captured.layout, captured.layout.fields[instrumenter::kEmitFields + output],
+                              vertex.words);
 }
 
 GeometryEmits::Totals GeometryEmits::totals() const {

@@ -170,21 +170,20 @@ Captured Session::capture(const Prepared& prepared, const instrumenter::Attachme
           "buffers for them); 'debug --pixel' follows them";
     }
   } else {
-    const instrumenter::DiscardedThreads discarded = executeWithList(prepared, options, captured);
+    const instrumenter::DiscardedThreads discarded = captureListed(prepared, options, captured);
     captured.threads = threadWords(captured.execution, layout.words);
     captured.execution.check.left_out =
         severalPlanes(facts()) && discarded.ended > 0
             ? kDiscardedPlanes
             : addDiscarded(captured.threads, layout, discarded, countsRowsFromTop(shader()));
-    captured.execution.storage.clear();
+    captured.execution.storage = {};
   }
   return captured;
 }
 
-// Executes with room for the list of discarded threads, once more if there are more of them than before. The
-// list points into `captured`'s storage.
-instrumenter::DiscardedThreads Session::executeWithList(const Prepared& prepared, ExecuteOptions options,
-                                                        Captured& captured) {
+// Once more if there are more of them than before.
+instrumenter::DiscardedThreads Session::captureListed(const Prepared& prepared, ExecuteOptions options,
+                                                      Captured& captured) {
   const auto words = static_cast<std::uint64_t>(captured.layout.discarded_words);
   const std::uint64_t most = (kMostWords - instrumenter::kDiscardedHeader) / words;
   while (true) {

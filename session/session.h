@@ -187,8 +187,10 @@ struct Execution {
       attachments;  // each width*height*4 words, rows bottom up; in `memory`
   std::shared_ptr<const wire::SharedMemory> memory;
   std::vector<ColorOutput> outputs;  // the program's own
-  std::vector<std::uint32_t> storage;
-  std::span<std::uint32_t> feedback;  // records of `feedback_words`, the captured ones first; in `memory`
+  std::span<std::uint32_t> storage;  // in `memory`
+  // Records of `feedback_words`, in `memory`: what is captured, and with `read_outputs` the original outputs
+  // behind it.
+  std::span<std::uint32_t> feedback;
   int feedback_words = 0;
   // One per repeat (and set, the sets of a repeat in order), of draw + glFinish: on the CPU's clock, and as
   // CPU time of all threads of the program.
@@ -377,6 +379,9 @@ class Session {
   Captured capture(const instrumenter::AttachmentShader&, const ExecuteOptions& = {});
   // The same with a program that is there already, read by its layout or by that of one of its probes.
   Captured capture(const Prepared&, const instrumenter::AttachmentLayout&, const ExecuteOptions& = {});
+  // Executes a fragment shader whose layout, that of `captured`, has a list, with room for all that it lists;
+  // the result points into `captured`.
+  instrumenter::DiscardedThreads captureListed(const Prepared&, ExecuteOptions, Captured& captured);
   struct PreparedRecording {
     instrumenter::RecordingShader shader;
     Prepared program;
@@ -399,7 +404,6 @@ class Session {
  private:
   Prepared send(wire::PrepareT&&);
   Prepared sendFragments(const instrumenter::AttachmentShader&, std::unique_ptr<wire::StageTextT> beside);
-  instrumenter::DiscardedThreads executeWithList(const Prepared&, ExecuteOptions, Captured&);
   Captured captureThreads(const Prepared&, const instrumenter::AttachmentLayout&, const ExecuteOptions&);
   Prepared prepareStages(const std::string& text, const instrumenter::AttachmentLayout&);
   Recorded recordWith(const PreparedRecording&, const std::vector<std::uint32_t>& which,

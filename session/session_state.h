@@ -46,6 +46,9 @@ struct Session::State {
   Stage stage = Stage::fragment;                       // that is looked at
   std::uint64_t discarded_room = kFirstDiscardedRoom;  // of the current stop
   std::uint64_t listed_room = kFirstListedRoom;
+  // Beside the last answer to Execute: it goes back to the agent where nothing else holds it.
+  std::shared_ptr<const wire::SharedMemory> answered;
+  std::uint64_t answered_number = 0;
 
   void leaveStop() {
     stop.reset();
@@ -55,6 +58,7 @@ struct Session::State {
     undefined.reset();
     discarded_room = kFirstDiscardedRoom;
     listed_room = kFirstListedRoom;
+    answered.reset();
   }
 
   // Runs on under the policy until the program stops; null: it has ended.

@@ -19,6 +19,8 @@ const char* const kOnlyPoints =
     "leave "
     "it by transform feedback alone): what it gives to the next stage is not compared";
 
+constexpr std::uint32_t kNoMode = 0xffffffff;  // of a call that does not say what primitives it draws
+
 bool hasWideComponents(const instrumenter::FeedbackOutput& output) {
   return wordsPerComponent(output.type.basic) == 2;
 }
@@ -48,12 +50,13 @@ ThreadWords threadsOf(std::span<std::uint32_t> records, int stride, int words,
 void sortByIdentity(ThreadWords& threads, const AttachmentLayout& layout, Stage stage) {
   std::vector<instrumenter::FieldDecoder> decoders;
   for (const instrumenter::Field& field : layout.identity) decoders.emplace_back(layout, field);
-  const ThreadOrder order(stage, threads.count(), decoders.size(), [&](std::size_t thread, std::size_t n) {
+  const auto word = [&](std::size_t thread, std::size_t n) {
     std::uint32_t number = 0;
     decoders[n].decode(threads.head(thread), &number);
     return number;
-  });
-  if (order.liesSo()) return;
+  };
+  if (ThreadOrder::liesSo(stage, threads.count(), decoders.size(), word)) return;
+  const ThreadOrder order(stage, threads.count(), decoders.size(), word);
   std::vector<std::uint32_t> sorted(threads.count() * static_cast<std::size_t>(threads.words()));
   auto* next = sorted.data();
   for (std::size_t i = 0; i < order.size(); ++i, next += threads.words()) threads.read(order[i], next);
@@ -112,6 +115,11 @@ Prepared Session::prepareStages(const std::string& text, const AttachmentLayout&
   std::string uncompared;
   if (stage() == Stage::geometry && isFeedback(layout)) {
     uncompared = kOnlyPoints;
+  } else if (stage() != Stage::compute && facts().feedback_components == 0) {
+    uncompared = (stop().mode == kNoMode ? "nobody knows what kind of primitives " + stop().call +
+                                               " draws, which transform feedback has to be told"
+                                         : "this driver has no transform feedback (OpenGL 3.0)") +
+                 ": what the stage gives to the next one is not compared";
   } else if (stage() != Stage::compute) {
     ComparedOutputs outputs = comparedOutputs(shader(lastOf(stage())), facts().feedback_components);
     prepare.feedback_outputs = std::move(outputs.names);
@@ -161,7 +169,9 @@ Captured Session::captureThreads(const Prepared& prepared, const AttachmentLayou
     listing.storage = {0, static_cast<std::uint32_t>(room), 0, 0};
     listing.storage_words = kHeader + room * words;
     captured.execution = execute(prepared, listing);
-    ended = captured.execution.storage.at(0);
+    if (captured.execution.storage.size() < listing.storage_words)
+      throw Error(Outcome::failed, "the agent's answer lacks captured values; report this as a bug");
+    ended = captured.execution.storage[0];
     if (ended <= room) break;
     if (room == most) {
       throw Error(Outcome::cannot_debug, "the values of " + std::to_string(ended) +
@@ -169,10 +179,8 @@ Captured Session::captureThreads(const Prepared& prepared, const AttachmentLayou
     }
     state_->listed_room = ended;
   }
-  const auto listed = std::make_shared<std::vector<std::uint32_t>>(std::move(captured.execution.storage));
-  captured.execution.storage.clear();
-  captured.threads = threadsOf(std::span(*listed).subspan(kHeader, ended * words), static_cast<int>(words),
-                               layout.words, listed);
+  captured.threads = threadsOf(captured.execution.storage.subspan(kHeader, ended * words),
+                               static_cast<int>(words), layout.words, captured.execution.memory);
   sortByIdentity(captured.threads, layout, stage());
   return captured;
 }

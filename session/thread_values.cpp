@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "glsl-frontend/watch.h"
 #include "session/values.h"
@@ -141,7 +142,10 @@ std::vector<frontend::Watch> watchesAt(const Shader& shader, const Probe& probe,
 
 namespace {
 
-// Fields of all threads, to be filled in thread by thread.
+constexpr std::size_t kBlock = 512;  // threads whose words stay in the nearest cache
+constexpr std::uint8_t kAnyMark = 0xFF;
+
+// Fields of all threads, to be filled in block by block.
 struct FieldValues {
   FieldValues(const instrumenter::AttachmentLayout& layout, const std::vector<instrumenter::Field>& fields,
               std::size_t threads) {
@@ -151,9 +155,18 @@ struct FieldValues {
       values.push_back({field.name, field.type, words, std::vector<std::uint32_t>(threads * words)});
     }
   }
-  void decode(std::size_t thread, const std::uint32_t* words) {
-    for (std::size_t i = 0; i < decoders.size(); ++i)
-      decoders[i].decode(words, values[i].words.data() + thread * values[i].stride);
+  // Of a block that begins with thread `first`, those of its threads whose marks have one of `bits`.
+  void decode(std::size_t first, const ThreadWords::Block& block, std::span<const std::uint8_t> marks,
+              std::uint8_t bits) {
+    const bool all =
+        std::all_of(marks.begin(), marks.end(), [&](std::uint8_t mark) { return (mark & bits) != 0; });
+    for (std::size_t f = 0; f < decoders.size(); ++f) {
+      const std::size_t stride = values[f].stride;
+      std::uint32_t* to = values[f].words.data() + first * stride;
+      if (all) decoders[f].decode(block.words, block.stride, marks.size(), to);
+      for (std::size_t i = 0; !all && i < marks.size(); ++i)
+        if ((marks[i] & bits) != 0) decoders[f].decode(block.at(i), to + i * stride);
+    }
   }
   std::vector<instrumenter::FieldDecoder> decoders;
   std::vector<WatchedValues> values;
@@ -186,19 +199,22 @@ void addPass(ThreadValues& result, const ThreadWords& threads, const instrumente
   }
   FieldValues fields(layout, layout.fields, threads.count());
   FieldValues identity(layout, layout.identity, threads.count());
-  std::vector<std::uint32_t> words(static_cast<std::size_t>(threads.words()));
-  for (std::size_t p = 0; p < threads.count(); ++p) {
-    const auto mark = static_cast<std::uint8_t>(instrumenter::decodeMark(layout, threads.head(p)));
-    if (!first && mark != result.marks[p]) disagree();
-    result.marks[p] = mark;
-    if (mark == 0) continue;
-    if (result.reachedAt(p) || !identity.values.empty()) threads.read(p, words.data());
-    identity.decode(p, words.data());
-    if (result.reachedAt(p)) fields.decode(p, words.data());
-    if (!first) continue;
-    ++result.launched;
-    result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
-    result.discarded += (mark & instrumenter::kDiscarded) != 0 ? 1 : 0;
+  std::vector<std::uint32_t> scratch;
+  for (std::size_t at = 0; at < threads.count(); at += kBlock) {
+    const std::size_t count = std::min(kBlock, threads.count() - at);
+    const ThreadWords::Block block = threads.block(at, count, scratch);
+    const std::span<std::uint8_t> marks(result.marks.data() + at, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto mark = static_cast<std::uint8_t>(instrumenter::decodeMark(layout, block.at(i)));
+      if (!first && mark != marks[i]) disagree();
+      marks[i] = mark;
+      if (!first) continue;
+      result.launched += mark != 0 ? 1 : 0;
+      result.reached += (mark & instrumenter::kReached) != 0 ? 1 : 0;
+      result.discarded += (mark & instrumenter::kDiscarded) != 0 ? 1 : 0;
+    }
+    identity.decode(at, block, marks, kAnyMark);
+    fields.decode(at, block, marks, instrumenter::kReached);
   }
   if (first)
     result.identity = std::move(identity.values);

@@ -33,6 +33,20 @@ ThreadWords::ThreadWords(int count, int words, std::uint32_t* first, std::size_t
   for (std::size_t plane = 0; plane < words_; plane += 4) planes_.push_back(first + plane);
 }
 
+ThreadWords::Block ThreadWords::block(std::size_t first, std::size_t count,
+                                      std::vector<std::uint32_t>& scratch) const {
+  const bool together = planes_.size() == 1 || (stride_ >= words_ && planes_[1] == planes_[0] + 4);
+  if (together) return {head(first), stride_};
+  scratch.resize(count * words_);
+  for (std::size_t w = 0; w < words_; w += 4) {
+    const std::uint32_t* from = planes_[w / 4] + first * stride_;
+    std::uint32_t* to = scratch.data() + w;
+    const std::size_t each = std::min<std::size_t>(words_ - w, 4);
+    for (std::size_t i = 0; i < count; ++i, from += stride_, to += words_) std::copy_n(from, each, to);
+  }
+  return {scratch.data(), words_};
+}
+
 void ThreadWords::read(std::size_t thread, std::uint32_t* into) const {
   const std::size_t at = thread * stride_;
   std::size_t first = 0;

@@ -38,6 +38,13 @@ class ThreadWords {
     const auto w = static_cast<std::size_t>(word);
     return planes_[w / 4][thread * stride_ + w % 4];
   }
+  // All words of `count` threads from `first` on: where they lie as blocks, there, else in `scratch`.
+  struct Block {
+    const std::uint32_t* words = nullptr;
+    std::size_t stride = 0;  // words from a thread to the next
+    const std::uint32_t* at(std::size_t thread) const { return words + thread * stride; }
+  };
+  Block block(std::size_t first, std::size_t count, std::vector<std::uint32_t>& scratch) const;
   // All of its words, to and from `words()` of them.
   void read(std::size_t thread, std::uint32_t* into) const;
   void write(std::size_t thread, const std::uint32_t* from);

@@ -17,6 +17,9 @@ inline constexpr std::uint32_t kProtocol = 5;
 // Environment variable by which the session tells the agent the (abstract) socket name.
 inline constexpr const char* kSocketVariable = "SHADESTEP_SOCKET";
 
+// Executed.compare_reason where a draw leaves nothing that could be compared.
+inline constexpr const char* kNothingToCompare = "it writes nothing that could be compared";
+
 // An owned file descriptor; closes it.
 class Descriptor {
  public:

@@ -27,8 +27,8 @@ struct Options {
 
 Json asJson(const GeometryEmits& emits, const EmittedVertex& vertex, int stream) {
   Json json = Json::object();
-  for (std::size_t i = 0; i < vertex.values.size(); ++i)
-    if (emits.outputs[i].stream == stream) json[emits.outputs[i].name] = toJson(vertex.values[i]);
+  for (std::size_t i = 0; i < emits.outputs.size(); ++i)
+    if (emits.outputs[i].stream == stream) json[emits.outputs[i].name] = toJson(emits.value(vertex, i));
   return json;
 }
 
@@ -103,7 +103,7 @@ void printOutput(const GeometryEmits& emits, const OutputPrimitive& output, std:
     for (std::size_t k = 0; k < emits.outputs.size(); ++k) {
       if (emits.outputs[k].stream != output.stream) continue;
       std::cout << "  " << emits.outputs[k].name << " = "
-                << session::formatValue(output.vertices[i].values[k]);
+                << session::formatValue(emits.value(output.vertices[i], k));
     }
     std::cout << "\n";
   }
@@ -157,7 +157,7 @@ std::string asCsv(const GeometryEmits& emits) {
                  std::to_string(run.invocation) + "," + std::to_string(output.stream) + "," +
                  std::to_string(i) + "," + std::to_string(v);
           for (std::size_t k = 0; k < emits.outputs.size(); ++k) {
-            const instrumenter::Value& value = output.vertices[v].values[k];
+            const instrumenter::Value value = emits.value(output.vertices[v], k);
             const bool has = emits.outputs[k].stream == output.stream;
             const std::uint32_t* word = value.words.data();
             for (const auto& component : frontend::components(value.type)) {

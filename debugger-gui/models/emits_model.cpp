@@ -137,7 +137,7 @@ QVariant EmitsModel::data(const QModelIndex& index, int role) const {
     const session::OutputPrimitive& output = input.runs[node.run].outputs[node.output];
     const std::size_t which = static_cast<std::size_t>(index.column()) - 1;
     if (emits_->outputs[which].stream != output.stream) return {};
-    return QString::fromStdString(session::formatValue(output.vertices[node.vertex].values[which]));
+    return QString::fromStdString(session::formatValue(emits_->value(output.vertices[node.vertex], which)));
   }
   if (role == Qt::FontRole && index.column() > 0) return monospaced();
   if (role == Qt::ForegroundRole && node.level == Level::output &&

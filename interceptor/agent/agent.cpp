@@ -149,7 +149,7 @@ void serve(wire::Channel& channel, Answer answer) {
     if (const wire::ResumeT* resume = request.body.AsResume()) return obey(*resume);
     if (const wire::QuitT* quit = request.body.AsQuit()) _exit(quit->status);
     const Reply reply = answer(request);
-    if (!send(channel, reply.message, reply.bulk ? reply.bulk.descriptor() : -1)) return letGo(channel);
+    if (!send(channel, reply.message, reply.bulk)) return letGo(channel);
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "wire/channel.h"
+
 namespace shadestep::agent {
 namespace {
 
@@ -14,10 +16,16 @@ bool any(const std::vector<std::uint64_t>& counts) {
   return std::any_of(counts.begin(), counts.end(), [](std::uint64_t count) { return count != 0; });
 }
 
-Refusal readInto(Traces& traces, ScratchMemory& into) {
-  std::byte* memory = into.reserve(std::max<std::size_t>(guard::totalBytes(traces.sections()), 1));
+std::size_t roomFor(const std::vector<Section>& sections) {
+  return std::max<std::size_t>(guard::totalBytes(sections), 1);
+}
+
+// What `read` gives, into `scratch`.
+template <class Read>
+Refusal readInto(const std::vector<Section>& sections, ScratchMemory& scratch, Read read) {
+  std::byte* memory = scratch.reserve(roomFor(sections));
   if (memory == nullptr) return guard::limit("there is not enough memory to compare what two draws leave");
-  return traces.read(memory);
+  return read(memory);
 }
 
 void append(std::vector<Section>& sections, std::vector<Section> more) {
@@ -38,6 +46,14 @@ Refusal DrawTraces::read(std::byte* destination) {
   return memory_.read(destination + guard::totalBytes(shadow_.sections()));
 }
 
+Refusal DrawTraces::differences(const std::byte* before, ScratchMemory& scratch,
+                                std::vector<std::uint64_t>& counts) {
+  const std::vector<Section> sections = this->sections();
+  Refusal refusal = readInto(sections, scratch, [&](std::byte* memory) { return read(memory); });
+  if (refusal.text.empty()) counts = guard::differences(sections, before, scratch.data());
+  return refusal;
+}
+
 std::vector<Section> StageTraces::sections() const {
   std::vector<Section> sections;
   const std::uint64_t words = feedback_.outputWords();
@@ -53,27 +69,46 @@ Refusal StageTraces::read(std::byte* destination) {
   return memory_.read(destination + words * 4);
 }
 
+Refusal StageTraces::differences(const std::byte* before, ScratchMemory& scratch,
+                                 std::vector<std::uint64_t>& counts) {
+  counts.clear();
+  const std::uint64_t words = feedback_.outputWords();
+  if (words > 0) counts.push_back(feedback_.differingOutputs(before));
+  const std::vector<Section> sections = memory_.sections();
+  if (sections.empty()) return {};
+  Refusal refusal = readInto(sections, scratch, [&](std::byte* memory) {
+    const guard::PixelReadGuard reading(facts_);
+    return memory_.read(memory);
+  });
+  if (!refusal.text.empty()) return refusal;
+  for (const std::uint64_t count : guard::differences(sections, before + words * 4, scratch.data()))
+    counts.push_back(count);
+  return {};
+}
+
 Refusal Check::keepReference(Traces& traces) {
-  Refusal refusal = readInto(traces, reference_);
+  Refusal refusal =
+      readInto(traces.sections(), reference_, [&](std::byte* memory) { return traces.read(memory); });
   if (!refusal.text.empty()) dropReference();
   return refusal;
 }
 
 Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& executed) {
-  const std::vector<Section> sections = traces.sections();
-  if (Refusal refusal = readInto(traces, drawn_); !refusal.text.empty()) return refusal;
-  if (drawn_.size() != reference_.size()) {
+  const auto other_inputs = [&] {
     executed.compare_reason =
         "two replays of the draw differ in what they leave behind: its inputs are not the same";
-    return {};
-  }
-  const std::vector<std::uint64_t> differing = guard::differences(sections, reference_.data(), drawn_.data());
-  std::vector<std::uint64_t> unstable(sections.size(), 0);
+    return Refusal{};
+  };
+  const std::vector<Section> sections = traces.sections();
+  if (roomFor(sections) != reference_.size()) return other_inputs();
+  std::vector<std::uint64_t> differing, unstable(sections.size(), 0);
+  if (Refusal refusal = traces.differences(reference_.data(), scratch_, differing); !refusal.text.empty())
+    return refusal;
   if (any(differing)) {
     if (Refusal refusal = again(); !refusal.text.empty()) return refusal;
-    ScratchMemory second;
-    if (Refusal refusal = readInto(traces, second); !refusal.text.empty()) return refusal;
-    unstable = guard::differences(sections, reference_.data(), second.data());
+    if (roomFor(traces.sections()) != reference_.size()) return other_inputs();
+    if (Refusal refusal = traces.differences(reference_.data(), scratch_, unstable); !refusal.text.empty())
+      return refusal;
   }
 
   std::string names;
@@ -93,7 +128,7 @@ Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& exec
                               ": an open order of writes, a clock or uninitialised variables; the other " +
                               std::to_string(executed.compared) + " components are identical";
   } else if (sections.empty()) {
-    executed.compare_reason = "it writes nothing that could be compared";
+    executed.compare_reason = wire::kNothingToCompare;
   }
   return {};
 }

@@ -25,6 +25,10 @@ class Traces {
  public:
   virtual std::vector<guard::Section> sections() const = 0;
   virtual guard::Refusal read(std::byte*) = 0;
+  // How many components of each section are others than those that were read before. `scratch` keeps its
+  // pages.
+  virtual guard::Refusal differences(const std::byte* before, ScratchMemory& scratch,
+                                     std::vector<std::uint64_t>& counts) = 0;
 
  protected:
   ~Traces() = default;
@@ -38,6 +42,8 @@ class DrawTraces final : public Traces {
       : facts_(facts), shadow_(shadow), memory_(memory) {}
   std::vector<guard::Section> sections() const override;
   guard::Refusal read(std::byte*) override;
+  guard::Refusal differences(const std::byte* before, ScratchMemory& scratch,
+                             std::vector<std::uint64_t>& counts) override;
 
  private:
   const guard::ContextFacts& facts_;
@@ -46,6 +52,7 @@ class DrawTraces final : public Traces {
 };
 
 // Of stages before rasterization, or of a dispatch: the original outputs, by transform feedback, and memory.
+// Outputs are compared where the driver left them.
 class StageTraces final : public Traces {
  public:
   StageTraces(const guard::ContextFacts& facts, const capture::Feedback& feedback,
@@ -53,6 +60,8 @@ class StageTraces final : public Traces {
       : facts_(facts), feedback_(feedback), memory_(memory), stage_(stage) {}
   std::vector<guard::Section> sections() const override;
   guard::Refusal read(std::byte*) override;
+  guard::Refusal differences(const std::byte* before, ScratchMemory& scratch,
+                             std::vector<std::uint64_t>& counts) override;
 
  private:
   const guard::ContextFacts& facts_;
@@ -77,7 +86,7 @@ class Check {
 
  private:
   ScratchMemory reference_;
-  ScratchMemory drawn_;  // what the last replay left
+  ScratchMemory scratch_;
 };
 
 }  // namespace shadestep::agent

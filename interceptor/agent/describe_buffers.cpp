@@ -235,7 +235,7 @@ guard::OrRefusal<wire::BuffersT> describeBuffers(const DrawFacts& facts) {
 }
 
 guard::OrRefusal<wire::BufferBytesT> readBuffer(const DrawFacts& facts, const wire::ReadBufferT& request,
-                                                wire::SharedMemory& bulk) {
+                                                AnswerMemory& bulk) {
   if (!copies()) return guard::unsupported("this driver cannot copy buffers (OpenGL 3.1, OpenGL ES 3.0)");
   const guard::CopyBindingGuard bindings;
   if (!gl().IsBuffer(request.buffer))

@@ -3,9 +3,9 @@
 // dispatch::gl().
 #pragma once
 
+#include "interceptor/agent/answer_memory.h"
 #include "interceptor/agent/describe.h"
 #include "interceptor/guard/refusal.h"
-#include "wire/channel.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
@@ -17,6 +17,6 @@ guard::OrRefusal<wire::BuffersT> describeBuffers(const DrawFacts&);
 
 // What stands there before the draw. The context is as before afterwards.
 guard::OrRefusal<wire::BufferBytesT> readBuffer(const DrawFacts&, const wire::ReadBufferT&,
-                                                wire::SharedMemory& bulk);
+                                                AnswerMemory& bulk);
 
 }  // namespace shadestep::agent

@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <memory>
 
+#include "interceptor/agent/answer_memory.h"
 #include "interceptor/agent/cpu_time.h"
 #include "interceptor/capture/storage.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/refusal.h"
 #include "interceptor/replay/program_copy.h"
-#include "wire/channel.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
@@ -48,11 +48,7 @@ class BulkLayout {
     return range;
   }
   // False: there is no memory for it.
-  bool create(wire::SharedMemory& memory) const {
-    if (total_ == 0) return true;
-    memory = wire::SharedMemory::create("shadestep-values", total_);
-    return static_cast<bool>(memory);
-  }
+  bool create(AnswerMemory& memory) const { return total_ == 0 || memory.reserve(total_); }
 
  private:
   std::uint64_t total_ = 0;

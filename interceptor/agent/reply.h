@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "interceptor/guard/refusal.h"
-#include "wire/channel.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
 
 struct Reply {
   wire::MessageT message;
-  wire::SharedMemory bulk;  // empty: none
+  int bulk = -1;  // the memory beside it, by its descriptor; it stays with whoever answers. -1: none
 };
 
 template <class Body>

@@ -38,7 +38,7 @@ Refusal driverError() {
 
 OrRefusal<wire::ExecutedT> StageReplay::execute(const replay::ProgramCopy& copy,
                                                 const guard::ProgramGuard& program,
-                                                const wire::ExecuteT& request, wire::SharedMemory& bulk) {
+                                                const wire::ExecuteT& request, AnswerMemory& bulk) {
   std::optional<guard::FeedbackGuard> guard;
   if (copy.stages->last != wire::Stage::Compute) {
     guard.emplace(facts_.context);
@@ -52,7 +52,7 @@ OrRefusal<wire::ExecutedT> StageReplay::execute(const replay::ProgramCopy& copy,
 // Every repeat starts from the same memory and a fresh storage buffer.
 OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
                                                const guard::ProgramGuard& program,
-                                               const wire::ExecuteT& request, wire::SharedMemory& bulk) {
+                                               const wire::ExecuteT& request, AnswerMemory& bulk) {
   const replay::Stages& stages = *copy.stages;
   const std::string name = replay::stageWord(replay::shaderType(stages.last));
   StageTraces traces(facts_.context, feedback_, memory_, name);
@@ -88,11 +88,16 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
 
   BulkLayout layout;
   executed.storage = layout.add(storage_.words() * 4);
-  executed.feedback = layout.add(feedback_.words() * 4);
-  executed.feedback_words = static_cast<std::uint32_t>(stages.feedback.words());
+  const bool whole = request.read_outputs;
+  executed.feedback = layout.add((whole ? feedback_.words() : feedback_.captureWords()) * 4);
+  executed.feedback_words =
+      static_cast<std::uint32_t>(whole ? stages.feedback.words() : stages.feedback.capture_words);
   if (!layout.create(bulk)) return noMemory();
   if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
-  if (executed.feedback->bytes > 0) feedback_.read(bulk.data() + executed.feedback->offset);
+  if (executed.feedback->bytes > 0) {
+    std::byte* to = bulk.data() + executed.feedback->offset;
+    whole ? feedback_.readRecords(to) : feedback_.readCaptures(to);
+  }
   if (!request.compare) {
     executed.compare_reason = "not asked for";
   } else if (Refusal refusal = bare->check.compare(

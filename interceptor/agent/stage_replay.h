@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "interceptor/agent/answer_memory.h"
 #include "interceptor/agent/check.h"
 #include "interceptor/agent/describe.h"
 #include "interceptor/capture/feedback.h"
@@ -17,7 +18,6 @@
 #include "interceptor/guard/guards.h"
 #include "interceptor/guard/memory.h"
 #include "interceptor/replay/program_copy.h"
-#include "wire/channel.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
@@ -36,7 +36,7 @@ class StageReplay {
 
   // The caller holds a MemoryGuard and a FramebufferGuard, and has saved what `copy` can write to.
   guard::OrRefusal<wire::ExecutedT> execute(const replay::ProgramCopy& copy, const guard::ProgramGuard&,
-                                            const wire::ExecuteT&, wire::SharedMemory& bulk);
+                                            const wire::ExecuteT&, AnswerMemory& bulk);
   // There is more memory to compare than before.
   void dropReferences();
 
@@ -48,7 +48,7 @@ class StageReplay {
     capture::Records records;  // that its last draw made
   };
   guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy& copy, const guard::ProgramGuard&,
-                                           const wire::ExecuteT&, wire::SharedMemory& bulk);
+                                           const wire::ExecuteT&, AnswerMemory& bulk);
   guard::OrRefusal<Bare*> bareCopy(const replay::Stages&, const guard::ProgramGuard&);
   guard::Refusal drawBare(Bare&);
   bool asPoints(const replay::ProgramCopy&) const;

@@ -78,6 +78,7 @@ wire::StoppedT Stop::announcement(std::uint64_t frame, std::uint64_t draw) const
 
 Reply Stop::answer(const wire::MessageT& request) {
   const guard::SilenceGuard silence(facts().context);
+  beside_.begin(0);
   Reply reply;
   if (request.body.AsDescribe() != nullptr) {
     reply = success(describe(facts()));
@@ -88,15 +89,13 @@ Reply Stop::answer(const wire::MessageT& request) {
   } else if (request.body.AsDescribeBuffers() != nullptr) {
     reply = replied(describeBuffers(facts()));
   } else if (const wire::ReadBufferT* read = request.body.AsReadBuffer()) {
-    wire::SharedMemory bulk;
-    reply = replied(readBuffer(facts(), *read, bulk));
-    if (reply.message.body.AsBufferBytes() != nullptr) reply.bulk = std::move(bulk);
+    reply = replied(readBuffer(facts(), *read, beside_));
   } else if (const wire::PrepareT* prepare_request = request.body.AsPrepare()) {
     reply = replied(prepare(*prepare_request));
   } else if (const wire::ExecuteT* execute_request = request.body.AsExecute()) {
-    wire::SharedMemory bulk;
-    reply = replied(execute(*execute_request, bulk));
-    if (reply.message.body.AsExecuted() != nullptr) reply.bulk = std::move(bulk);
+    beside_.begin(execute_request->given_back);
+    reply = replied(execute(*execute_request, beside_));
+    if (wire::ExecutedT* executed = reply.message.body.AsExecuted()) executed->memory = beside_.number();
   } else if (const wire::TimeBoxesT* boxes = request.body.AsTimeBoxes()) {
     reply = replied(timeBoxes(*boxes));
   } else if (const wire::ReleaseT* release = request.body.AsRelease()) {
@@ -107,6 +106,7 @@ Reply Stop::answer(const wire::MessageT& request) {
         guard::internal("the agent does not know this request; use interceptor and shadestep of one build"));
   }
   guard::clearErrors();
+  if (reply.message.body.AsFailed() == nullptr) reply.bulk = beside_.descriptor();
   return reply;
 }
 
@@ -156,7 +156,7 @@ OrRefusal<wire::PreparedT> Stop::prepare(const wire::PrepareT& request) {
 // ---- Execute
 // -------------------------------------------------------------------------------------------------
 
-OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::SharedMemory& bulk) {
+OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, AnswerMemory& bulk) {
   const auto found = prepared_.find(request.handle);
   if (found == prepared_.end())
     return guard::internal("there is no prepared program with this handle at this stop");
@@ -184,7 +184,7 @@ OrRefusal<wire::ExecutedT> Stop::execute(const wire::ExecuteT& request, wire::Sh
 // all repeats, and the program's own draw afterwards, see the same. None of that is in the measured time.
 OrRefusal<wire::ExecutedT> Stop::replay(const replay::ProgramCopy& copy, const guard::ProgramGuard& program,
                                         const guard::FramebufferGuard& framebuffers,
-                                        const wire::ExecuteT& request, wire::SharedMemory& bulk) {
+                                        const wire::ExecuteT& request, AnswerMemory& bulk) {
   const guard::ContextFacts& context = facts().context;
   const capture::DrawTarget& target = facts().target;
   if (Refusal refusal = checkPlane(request); !refusal.text.empty()) return refusal;
@@ -285,8 +285,7 @@ capture::Shadow::Start Stop::start() const {
   return raster_.clear_buffers ? capture::Shadow::Start::cleared : capture::Shadow::Start::copied;
 }
 
-void Stop::readOutputs(const wire::ExecuteT& request, const wire::ExecutedT& executed,
-                       wire::SharedMemory& bulk) {
+void Stop::readOutputs(const wire::ExecuteT& request, const wire::ExecutedT& executed, AnswerMemory& bulk) {
   const guard::PixelReadGuard reading(facts().context);
   for (std::size_t i = 0; i < executed.outputs.size(); ++i) {
     shadow_->readOutput(facts().target.colors[i], {request.layer, request.sample},
@@ -296,7 +295,7 @@ void Stop::readOutputs(const wire::ExecuteT& request, const wire::ExecutedT& exe
 
 // What one and the same draw left in the capture and the storage buffers.
 void Stop::readCaptured(const replay::ProgramCopy& copy, const wire::ExecuteT& request,
-                        const wire::ExecutedT& executed, wire::SharedMemory& bulk) {
+                        const wire::ExecutedT& executed, AnswerMemory& bulk) {
   const guard::PixelReadGuard reading(facts().context);
   for (std::size_t i = 0; i < executed.attachments.size(); ++i) {
     shadow_->readCapture(copy.captures[i], {request.layer, request.sample},
@@ -308,7 +307,7 @@ void Stop::readCaptured(const replay::ProgramCopy& copy, const wire::ExecuteT& r
 // The triangle covers the target whole and unblended: repeats need nothing in between but the program's
 // memory.
 OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wire::ExecuteT& request,
-                                       wire::SharedMemory& bulk) {
+                                       AnswerMemory& bulk) {
   const guard::ContextFacts& context = facts().context;
   const int size = request.covering_size;
   if (size <= 0) return guard::unsupported("the covering target needs a size of at least one pixel");

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "interceptor/agent/answer_memory.h"
 #include "interceptor/agent/check.h"
 #include "interceptor/agent/describe.h"
 #include "interceptor/agent/reply.h"
@@ -21,7 +22,6 @@
 #include "interceptor/guard/memory.h"
 #include "interceptor/guard/refusal.h"
 #include "interceptor/replay/program_copy.h"
-#include "wire/channel.h"
 #include "wire/messages_generated.h"
 
 namespace shadestep::agent {
@@ -31,28 +31,28 @@ class Stop {
   explicit Stop(const calls::DrawCall&);
 
   wire::StoppedT announcement(std::uint64_t frame, std::uint64_t draw) const;
-  // Answers Describe, DescribeState, DescribeTextures, DescribeBuffers, ReadBuffer, Prepare, Execute, TimeBoxes
-  // and Release; Failed to anything else.
+  // Answers Describe, DescribeState, DescribeTextures, DescribeBuffers, ReadBuffer, Prepare, Execute,
+  // TimeBoxes and Release; Failed to anything else.
   Reply answer(const wire::MessageT& request);
 
  private:
   guard::OrRefusal<wire::StateT> describeState();
   guard::OrRefusal<wire::PreparedT> prepare(const wire::PrepareT&);
-  guard::OrRefusal<wire::ExecutedT> execute(const wire::ExecuteT&, wire::SharedMemory& bulk);
+  guard::OrRefusal<wire::ExecutedT> execute(const wire::ExecuteT&, AnswerMemory& bulk);
   guard::OrRefusal<wire::ExecutedT> replay(const replay::ProgramCopy&, const guard::ProgramGuard&,
                                            const guard::FramebufferGuard&, const wire::ExecuteT&,
-                                           wire::SharedMemory& bulk);
+                                           AnswerMemory& bulk);
   guard::OrRefusal<wire::ExecutedT> cover(const replay::ProgramCopy&, const wire::ExecuteT&,
-                                          wire::SharedMemory& bulk);
+                                          AnswerMemory& bulk);
   guard::OrRefusal<wire::BoxTimesT> timeBoxes(const wire::TimeBoxesT&);
   guard::Refusal checkPlane(const wire::ExecuteT&);
   void setRaster(const wire::RasterT*);
   guard::Refusal prepareReplay(const replay::ProgramCopy&, const guard::FramebufferGuard&,
                                const wire::ExecuteT&, const std::vector<capture::CaptureBuffer>&);
   capture::Shadow::Start start() const;
-  void readOutputs(const wire::ExecuteT&, const wire::ExecutedT&, wire::SharedMemory& bulk);
+  void readOutputs(const wire::ExecuteT&, const wire::ExecutedT&, AnswerMemory& bulk);
   void readCaptured(const replay::ProgramCopy&, const wire::ExecuteT&, const wire::ExecutedT&,
-                    wire::SharedMemory& bulk);
+                    AnswerMemory& bulk);
   guard::Refusal saveOwnMemory();
   guard::Refusal saveMemory(const replay::ProgramCopy&);
   guard::Refusal drawOriginal(const guard::FramebufferGuard&);
@@ -71,6 +71,7 @@ class Stop {
   std::optional<StageReplay> stages_;
   std::map<std::uint32_t, std::unique_ptr<replay::ProgramCopy>> prepared_;
   std::uint32_t next_handle_ = 1;
+  AnswerMemory beside_;  // the last answer
 };
 
 }  // namespace shadestep::agent

@@ -8,6 +8,7 @@
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/section.h"
 
 namespace shadestep::capture {
 namespace {
@@ -16,6 +17,23 @@ using dispatch::gl;
 
 std::uint64_t verticesOf(GLenum mode) {
   return mode == GL_TRIANGLES ? 3 : mode == GL_LINES ? 2 : 1;
+}
+
+std::uint32_t word(const std::byte* at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+// `bytes` of each record: whole words.
+void copyEach(std::byte* to, std::size_t to_stride, const std::byte* from, std::size_t from_stride,
+              std::size_t bytes, std::uint64_t records) {
+  constexpr std::size_t kFour = 16;
+  for (std::uint64_t i = 0; i < records; ++i, to += to_stride, from += from_stride) {
+    std::size_t at = 0;
+    for (; at + kFour <= bytes; at += kFour) std::memcpy(to + at, from + at, kFour);
+    for (; at < bytes; at += 4) std::memcpy(to + at, from + at, 4);
+  }
 }
 
 std::uint64_t result(GLuint query) {
@@ -114,6 +132,10 @@ std::uint64_t Feedback::words(std::size_t buffer) const {
   return buffer < records_.size() ? records_[buffer] * static_cast<std::uint64_t>(layout_.words(buffer)) : 0;
 }
 
+std::uint64_t Feedback::captureWords() const {
+  return records_.empty() ? 0 : records_[0] * static_cast<std::uint64_t>(layout_.capture_words);
+}
+
 std::uint64_t Feedback::outputWords() const {
   std::uint64_t words = 0;
   for (std::size_t i = 0; i < records_.size(); ++i)
@@ -129,19 +151,28 @@ std::uint64_t Feedback::differing(const Records& some, const Records& others) co
   return words;
 }
 
+// False: there is something, but the driver does not map it.
 template <class Use>
-void Feedback::mapped(std::size_t buffer, Use use) const {
-  if (words(buffer) == 0) return;
+bool Feedback::mapped(std::size_t buffer, Use use) const {
+  if (words(buffer) == 0) return true;
   gl().BindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffers_[buffer].name);
   const void* memory = gl().MapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0,
                                            static_cast<GLsizeiptr>(words(buffer) * 4), GL_MAP_READ_BIT);
-  if (memory == nullptr) return;
+  if (memory == nullptr) return false;
   use(static_cast<const std::byte*>(memory));
   gl().UnmapBuffer(GL_TRANSFORM_FEEDBACK_BUFFER);
+  return true;
 }
 
-void Feedback::read(void* destination) const {
+void Feedback::readRecords(std::byte* destination) const {
   mapped(0, [&](const std::byte* memory) { std::memcpy(destination, memory, words() * 4); });
+}
+
+void Feedback::readCaptures(std::byte* destination) const {
+  const auto stride = static_cast<std::size_t>(layout_.words()) * 4;
+  const auto bytes = static_cast<std::size_t>(layout_.capture_words) * 4;
+  mapped(0,
+         [&](const std::byte* memory) { copyEach(destination, bytes, memory, stride, bytes, records_[0]); });
 }
 
 void Feedback::readOutputs(std::byte* destination) const {
@@ -149,11 +180,32 @@ void Feedback::readOutputs(std::byte* destination) const {
     const auto stride = static_cast<std::size_t>(layout_.words(b)) * 4;
     const auto bytes = static_cast<std::size_t>(outputs(b)) * 4;
     mapped(b, [&](const std::byte* memory) {
-      for (std::uint64_t i = 0; i < records_[b]; ++i)
-        std::memcpy(destination + i * bytes, memory + i * stride + (stride - bytes), bytes);
+      copyEach(destination, bytes, memory + (stride - bytes), stride, bytes, records_[b]);
     });
     destination += records_[b] * bytes;
   }
+}
+
+// What cannot be looked at proves nothing: it counts as other.
+std::uint64_t Feedback::differingOutputs(const std::byte* before) const {
+  std::uint64_t count = 0;
+  for (std::size_t b = 0; b < records_.size(); ++b) {
+    const auto stride = static_cast<std::size_t>(layout_.words(b)) * 4;
+    const auto bytes = static_cast<std::size_t>(outputs(b)) * 4;
+    const bool seen = mapped(b, [&](const std::byte* memory) {
+      if (stride == bytes) {
+        count += guard::differing(before, memory, records_[b] * bytes, 4);
+        return;
+      }
+      const std::byte* now = memory + (stride - bytes);
+      for (std::uint64_t i = 0; i < records_[b]; ++i)
+        for (std::size_t at = 0; at < bytes; at += 4)
+          count += word(before + i * bytes + at) != word(now + i * stride + at) ? 1 : 0;
+    });
+    if (!seen) count += records_[b] * bytes / 4;
+    before += records_[b] * bytes;
+  }
+  return count;
 }
 
 }  // namespace shadestep::capture

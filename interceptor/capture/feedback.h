@@ -54,15 +54,20 @@ class Feedback {
   // current.
   void leaveMode(GLenum) const;
 
-  // Of the first buffer.
+  // Of the first buffer's records: all, and those of captures.
   std::uint64_t words() const { return words(0); }
+  std::uint64_t captureWords() const;
   // Of all buffers, one behind the other.
   std::uint64_t outputWords() const;
   // The words of outputs in which two draws differ by their numbers of records alone.
   std::uint64_t differing(const Records&, const Records&) const;
-  // Whole records of the first buffer; the original outputs of all. An error is left to the caller.
-  void read(void* words) const;
+  // Of the first buffer's records the captures, or all; the original outputs of all buffers. An error is left
+  // to the caller.
+  void readCaptures(std::byte* words) const;
+  void readRecords(std::byte* words) const;
   void readOutputs(std::byte* words) const;
+  // How many words of the outputs are others than those that were read before.
+  std::uint64_t differingOutputs(const std::byte* before) const;
 
  private:
   struct Buffer {
@@ -73,7 +78,7 @@ class Feedback {
   int outputs(std::size_t buffer) const;  // words of a record
   std::uint64_t words(std::size_t buffer) const;
   template <class Use>
-  void mapped(std::size_t buffer, Use) const;
+  bool mapped(std::size_t buffer, Use) const;
 
   const guard::ContextFacts& facts_;
   GLuint object_ = 0;

@@ -20,7 +20,9 @@ struct Section {
 
 std::size_t totalBytes(const std::vector<Section>&);
 
-// How many components differ, a number for each section.
+// How many components of `word` bytes differ.
+std::uint64_t differing(const std::byte* a, const std::byte* b, std::size_t bytes, std::size_t word);
+// The same of sections, a number for each.
 std::vector<std::uint64_t> differences(const std::vector<Section>&, const std::byte* a, const std::byte* b);
 
 }  // namespace shadestep::guard
