@@ -196,13 +196,26 @@ void Attachments::frameInstead(const std::string& statements) {
 void Attachments::frame(const std::string& start, const std::string& end) {
   wrapMain(draft_, start, end + handOver());
   if (!storage_ || !draft_.shader().traits.uses_discard) return;
+  declareDiscarded();
+  wrapDiscards(draft_, end + appendToDiscarded());
+}
+
+bool Attachments::frameListed(const std::string& statements) {
+  if (!storage_) return false;
+  declareDiscarded();
+  wrapMain(draft_, statements + appendToDiscarded(), handOver());
+  return true;
+}
+
+void Attachments::declareDiscarded() {
   layout_.discarded_block = draft_.name("Discarded");
   layout_.discarded_words = 4 * (1 + layout_.attachments());
   declareList(layout_.discarded_block, 1 + layout_.attachments());
-  wrapDiscards(
-      draft_,
-      end + appendToList(floats() ? "vec4(floor(gl_FragCoord.xy), gl_FragCoord.z, 1.0)"
-                                  : "uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u)"));
+}
+
+std::string Attachments::appendToDiscarded() const {
+  return appendToList(floats() ? "vec4(floor(gl_FragCoord.xy), gl_FragCoord.z, 1.0)"
+                               : "uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u)");
 }
 
 // A list of threads, to which appendToList appends.

@@ -56,6 +56,9 @@ class Attachments {
   // That of a thread that does these statements, once, instead of the shader's own (a control shader's:
   // before them).
   void frameInstead(const std::string& statements);
+  // That of a fragment that appends its words to the list of those that end in a discard: all do so, before
+  // anything else, once these statements have set them. False where there are no storage blocks.
+  bool frameListed(const std::string& statements);
   // GLSL statements that write the buffered words to the outputs.
   std::string write() const;
 
@@ -80,6 +83,8 @@ class Attachments {
   std::string markWord(std::uint32_t mark) const;
   std::string outputQualifiers(int index) const;
   void declareList(const std::string& block, int vectors);
+  void declareDiscarded();
+  std::string appendToDiscarded() const;
   std::string appendToList(const std::string& before) const;
   std::string buffer(int index) const { return draft_.name("words" + std::to_string(index)); }
 

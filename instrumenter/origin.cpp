@@ -9,6 +9,7 @@
 #include "instrumenter/constructs/declaration.h"
 #include "instrumenter/constructs/geometry_output.h"
 #include "instrumenter/constructs/main.h"
+#include "instrumenter/storage.h"
 #include "instrumenter/words.h"
 
 namespace shadestep::instrumenter {
@@ -47,15 +48,26 @@ std::string declared(const Draft& draft, const std::string& direction, const std
   return "flat " + direction + " " + draft.highp() + "ivec4 " + name + ";";
 }
 
-Result<AttachmentShader> showOrigin(const Shader& fragment, const std::string& name, const Target& target) {
+enum class Fragments { shown, all };
+
+// `name`: of the input that tells it, "" = gl_PrimitiveID does.
+Result<AttachmentShader> showOrigin(const Shader& fragment, const std::string& name, Fragments which,
+                                    const Target& target) {
   Draft draft(fragment);
   Attachments attachments(draft, target);
   if (!attachments.failure().empty()) return Failure{attachments.failure()};
   if (!attachments.add("origin", typeOf(Basic::int_, 4)))
     return Failure{"Who made a fragment does not fit into " + attachments.place() + "."};
-  draft.declare(declared(draft, "in", name));
+  if (!name.empty()) draft.declare(declared(draft, "in", name));
   attachments.declare();
-  attachments.frame("  " + attachments.assign(kLaunched | kReached, {name}) + ";\n", "");
+  const std::string start =
+      "  " +
+      attachments.assign(kLaunched | kReached, {name.empty() ? "ivec4(gl_PrimitiveID, 0, 0, 0)" : name}) +
+      ";\n";
+  if (which == Fragments::shown)
+    attachments.frame(start, "");
+  else if (!attachments.frameListed(start))
+    return Failure{"Fragments that the draw does not show are told by " + noStorage(fragment, target) + "."};
   auto text = draft.finish();
   if (auto* failure = std::get_if<Failure>(&text)) return *failure;
   return AttachmentShader{std::move(std::get<std::string>(text)), attachments.layout()};
@@ -97,14 +109,13 @@ void tellCoordinates(Draft& draft, const std::string& name) {
            "");
 }
 
-}  // namespace
-
-Result<OriginShaders> instrumentOrigin(const Shader& fragment, const Shader& before, const Target& target) {
+Result<OriginShaders> told(const Shader& fragment, const Shader& before, Fragments which,
+                           const Target& target) {
   if (!hasFlatInputs(fragment))
     return Failure{"A fragment shader of GLSL " + std::to_string(fragment.version) +
                    " has no flat inputs, by which it could be told who made a fragment."};
   const std::string name = freshName(fragment, before);
-  auto shown = showOrigin(fragment, name, target);
+  auto shown = showOrigin(fragment, name, which, target);
   if (auto* failure = std::get_if<Failure>(&shown)) return *failure;
 
   Draft draft(before);
@@ -116,6 +127,19 @@ Result<OriginShaders> instrumentOrigin(const Shader& fragment, const Shader& bef
   auto text = draft.finish();
   if (auto* failure = std::get_if<Failure>(&text)) return *failure;
   return OriginShaders{std::move(std::get<AttachmentShader>(shown)), std::move(std::get<std::string>(text))};
+}
+
+}  // namespace
+
+Result<OriginShaders> instrumentOrigin(const Shader& fragment, const Shader& before, const Target& target) {
+  return told(fragment, before, Fragments::shown, target);
+}
+
+Result<OriginShaders> listOrigins(const Shader& fragment, const Shader* before, const Target& target) {
+  if (before != nullptr) return told(fragment, *before, Fragments::all, target);
+  auto listed = showOrigin(fragment, "", Fragments::all, target);
+  if (auto* failure = std::get_if<Failure>(&listed)) return *failure;
+  return OriginShaders{std::move(std::get<AttachmentShader>(listed)), ""};
 }
 
 int generatedVertices(const Shader& evaluation) {

@@ -21,6 +21,12 @@ struct OriginShaders {
 Result<OriginShaders> instrumentOrigin(const frontend::Shader& fragment, const frontend::Shader& before,
                                        const Target& target);
 
+// The same of all fragments, hidden and discarded ones too: they are listed as discarded threads are
+// (decodeDiscarded), at their start. `before`: the geometry shader; without one (null) there is no text for
+// it, and the field's first number is gl_PrimitiveID.
+Result<OriginShaders> listOrigins(const frontend::Shader& fragment, const frontend::Shader* before,
+                                  const Target& target);
+
 // Of an evaluation shader: vertices of a generated primitive, 1 (point_mode), 2 (isolines) or 3.
 int generatedVertices(const frontend::Shader&);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "instrumenter/origin.h"
+#include "session/discarded_threads.h"
 
 namespace shadestep::session {
 namespace {
@@ -38,6 +39,23 @@ int patchVertices(Session& session) {
   for (std::size_t t = 0; t < threads.marks.size(); ++t)
     if (threads.reachedAt(t)) return static_cast<std::int32_t>(*threads.values.at(0).at(t));
   cannotTell("the draw runs no patch");
+}
+
+// Whether the fragments come through a geometry shader, which then has to tell their primitives; else
+// gl_PrimitiveID does. Selects the fragment stage.
+bool throughGeometry(Session& session) {
+  requireNumberedPrimitives(session);
+  session.select(Stage::fragment);
+  session.requireCapturable();
+  if (hasStage(session, Stage::geometry)) {
+    if (hasStage(session, Stage::tess_eval))
+      cannotTell("behind tessellation a geometry shader does not count the draw's primitives");
+    return true;
+  }
+  const frontend::Shader& shader = session.shader();
+  if (shader.version < 150 || (shader.profile == "es" && shader.version < 320))
+    cannotTell("its shader's GLSL " + std::to_string(shader.version) + " has no gl_PrimitiveID");
+  return false;
 }
 
 }  // namespace
@@ -80,18 +98,36 @@ ThreadValues originsOnPixels(Session& session, Stage before, Provoking provoking
 }
 
 ThreadValues primitivesOnPixels(Session& session) {
-  requireNumberedPrimitives(session);
-  if (hasStage(session, Stage::geometry)) {
-    if (hasStage(session, Stage::tess_eval))
-      cannotTell("behind tessellation a geometry shader does not count the draw's primitives");
-    return originsOnPixels(session, Stage::geometry);
-  }
-  session.select(Stage::fragment);
-  session.requireCapturable();
+  if (throughGeometry(session)) return originsOnPixels(session, Stage::geometry);
+  return valuesAt(session, startProbe(session.shader(), "gl_PrimitiveID"));
+}
+
+PrimitiveFragments allFragments(Session& session) {
+  const bool geometry = throughGeometry(session);
+  if (severalPlanes(session.facts())) cannotTell("the target has several layers or samples");
   const frontend::Shader& shader = session.shader();
-  if (shader.version < 150 || (shader.profile == "es" && shader.version < 320))
-    cannotTell("its shader's GLSL " + std::to_string(shader.version) + " has no gl_PrimitiveID");
-  return valuesAt(session, startProbe(shader, "gl_PrimitiveID"));
+  auto instrumented = instrumenter::listOrigins(shader, geometry ? &session.shader(Stage::geometry) : nullptr,
+                                                session.target());
+  if (const auto* failure = std::get_if<instrumenter::Failure>(&instrumented)) cannotTell(failure->reason);
+  const auto& shaders = std::get<instrumenter::OriginShaders>(instrumented);
+  Captured captured;
+  captured.layout = shaders.fragment.layout;
+  const Prepared prepared = geometry ? session.prepare(shaders.fragment, Stage::geometry, shaders.before)
+                                     : session.prepare(shaders.fragment);
+  const instrumenter::DiscardedThreads listed = session.captureListed(prepared, {}, captured);
+  if (listed.ended > listed.threads.size())
+    cannotTell("the draw's " + std::to_string(listed.ended) + " fragments do not fit into memory");
+  PrimitiveFragments result;
+  result.check = captured.execution.check;
+  const instrumenter::FieldDecoder decoder(captured.layout, captured.layout.fields.at(0));
+  const bool from_top = countsRowsFromTop(shader);
+  for (const instrumenter::DiscardedThread& thread : listed.threads) {
+    std::uint32_t origin[4];
+    decoder.decode(thread.words, origin);
+    const int y = from_top ? session.facts().height - 1 - thread.y : thread.y;
+    result.fragments.push_back({thread.x, y, static_cast<std::int32_t>(origin[0])});
+  }
+  return result;
 }
 
 void addPrimitiveCheck(Check& to, const Check& check) {

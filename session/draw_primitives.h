@@ -23,6 +23,18 @@ ThreadValues originsOnPixels(Session&, Stage before, Provoking = Provoking::keep
 // stage. Throws cannot_debug where it cannot be told, as above, and below GLSL 1.50.
 ThreadValues primitivesOnPixels(Session&);
 
+// Of all fragments, hidden and discarded ones too, in no order: the pixel (as gl_FragCoord counts from the
+// lower left corner) and the primitive, as above. Selects the fragment stage. Throws cannot_debug, without
+// storage buffers and for targets of several layers or samples, too.
+struct PrimitiveFragment {
+  int x = 0, y = 0, primitive = 0;
+};
+struct PrimitiveFragments {
+  std::vector<PrimitiveFragment> fragments;
+  Check check;
+};
+PrimitiveFragments allFragments(Session&);
+
 // Throws cannot_debug with this reason.
 [[noreturn]] void cannotTell(const std::string& reason);
 

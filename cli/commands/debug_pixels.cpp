@@ -27,26 +27,42 @@ std::string numbersText(const std::vector<int>& numbers) {
   return text;
 }
 
+Json asJson(const TouchedPixels::Some& pixels) {
+  const int(&box)[4] = pixels.box;
+  const Json around = {{"x", {box[0], box[1]}}, {"y", {box[2], box[3]}}};
+  return {{"count", pixels.count}, {"box", pixels.count > 0 ? around : Json(nullptr)}};
+}
+
 Json asJson(const session::ThreadName& vertex, const TouchedPixels& touched) {
   Json thread = {{"stage", "vertex"}};
   for (const auto& [part, number] : vertex) thread[part] = number;
-  const int(&box)[4] = touched.box;
-  const Json around = {{"x", {box[0], box[1]}}, {"y", {box[2], box[3]}}};
+  const bool known = touched.hidden_unknown.empty();
   return {{"thread", std::move(thread)},
           {"primitives", touched.primitives},
-          {"pixels", {{"count", touched.count}, {"box", touched.count > 0 ? around : Json(nullptr)}}},
+          {"pixels", asJson(touched.shown)},
+          {"hidden", known ? asJson(touched.hidden) : Json(nullptr)},
+          {"hidden_unknown", known ? Json(nullptr) : Json(touched.hidden_unknown)},
           {"check", toJson(touched.check)}};
 }
 
 std::string asCsv(const TouchedPixels& touched) {
-  std::string csv = "x,y,primitive\n";
+  std::string csv = "x,y,primitive,shown\n";
   const auto width = static_cast<std::size_t>(touched.width);
   for (std::size_t p = 0; p < touched.marks.size(); ++p) {
-    if (touched.marks[p] == 0) continue;
-    csv += std::to_string(p % width) + "," + std::to_string(p / width) + "," +
-           std::to_string(touched.on_pixel[p]) + "\n";
+    const bool shown = touched.marks[p] != 0;
+    const int primitive = shown ? touched.on_pixel[p] : touched.hidden_on_pixel[p];
+    if (primitive == TouchedPixels::kNothing) continue;
+    csv += std::to_string(p % width) + "," + std::to_string(p / width) + "," + std::to_string(primitive) +
+           (shown ? ",1\n" : ",0\n");
   }
   return csv;
+}
+
+std::string boxText(const TouchedPixels::Some& pixels) {
+  if (pixels.count == 0) return "";
+  const int(&box)[4] = pixels.box;
+  return ", from " + std::to_string(box[0]) + "," + std::to_string(box[2]) + " to " + std::to_string(box[1]) +
+         "," + std::to_string(box[3]);
 }
 
 // The touched pixels by their primitives; hatched: the draw's others.
@@ -83,12 +99,15 @@ int debugPixels(session::Session& session, const Common& common, const DebugOpti
   std::cout << nameText(vertex) << " belongs to " << withThousands(touched.primitives.size())
             << (touched.primitives.size() == 1 ? " primitive" : " primitives");
   if (!touched.primitives.empty()) std::cout << ": " << numbersText(touched.primitives);
+  const std::string them = touched.primitives.size() == 1 ? "it" : "them";
   std::cout << "\n"
-            << withThousands(touched.count) << " pixels show a fragment of "
-            << (touched.primitives.size() == 1 ? "it" : "them");
-  const int(&box)[4] = touched.box;
-  if (touched.count > 0)
-    std::cout << ", from " << box[0] << "," << box[2] << " to " << box[1] << "," << box[3];
+            << withThousands(touched.shown.count) << " pixels show a fragment of " << them
+            << boxText(touched.shown) << "\n";
+  if (!touched.hidden_unknown.empty())
+    std::cout << "hidden fragments are not told: " << touched.hidden_unknown;
+  else
+    std::cout << withThousands(touched.hidden.count) << " more have a fragment of " << them
+              << " that is hidden or discarded" << boxText(touched.hidden);
   std::cout << "\n" << describe(touched.check) << "\n";
   return 0;
 }

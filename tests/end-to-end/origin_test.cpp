@@ -2,6 +2,7 @@
 // corners.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -15,6 +16,7 @@ namespace {
 
 const std::string kProgram = "programs/origins";
 constexpr int kSize = 64;
+constexpr int kOverlapping = 10, kWithDepth = 11;
 
 // ---- tests/programs/origins.cpp in C++
 
@@ -25,6 +27,8 @@ struct Point {
 
 Point place(int draw, int vertex) {
   if (draw == 2) return vertex == 0 ? Point{0, -1} : Point{-1 + 0.25 * (vertex - 1), 1};
+  if (draw >= kOverlapping)
+    return {-1 + 0.1 * (vertex / 3) + (vertex % 3 == 1 ? 1 : 0), vertex % 3 == 2 ? 1.0 : -1.0};
   const int at = draw == 1 ? vertex : vertex / 3 + vertex % 3;
   return {-1 + 0.25 * (at / 2), at % 2 == 0 ? -1.0 : 1.0};
 }
@@ -35,7 +39,7 @@ std::vector<Triangle> trianglesOf(int draw) {
     if (draw == 0) triangles.push_back({6 + 3 * i, 7 + 3 * i, 8 + 3 * i});
     if (draw == 1 && i < 8) triangles.push_back({4 + i, 5 + i, 6 + i});
     if (draw == 2 && i < 6) triangles.push_back({0, i + 1, i + 2});
-    if (draw == 5) triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    if (draw == 5 || draw >= kOverlapping) triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return triangles;
 }
@@ -260,25 +264,33 @@ TEST_P(Touched, PixelsAreThoseOfItsTriangles) {
   EXPECT_EQ(run.json()["primitives"], primitives);
   EXPECT_EQ(run.json()["check"]["outputs"], "identical");
 
-  // The triangles of a draw overlap nowhere but in its list, where the last one drawn is seen.
+  // Where triangles overlap the last one drawn is seen, or with the depth test the first.
   std::vector<std::vector<std::string>> expected;
+  std::size_t visible = 0;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
-      std::optional<int> shown;
+      std::vector<int> there;
       const Point at{2 * (x + 0.5) / kSize - 1, 2 * (y + 0.5) / kSize - 1};
       for (int p = 0; p < static_cast<int>(triangles.size()); ++p)
-        if (covers(draw, triangles[static_cast<std::size_t>(p)], at)) shown = p;
-      if (shown && belongs(*shown))
-        expected.push_back({std::to_string(x), std::to_string(y), std::to_string(*shown)});
+        if (covers(draw, triangles[static_cast<std::size_t>(p)], at)) there.push_back(p);
+      if (there.empty()) continue;
+      const int shown = draw == kWithDepth ? there.front() : there.back();
+      const auto own = std::find_if(there.begin(), there.end(), belongs);
+      visible += belongs(shown) ? 1 : 0;
+      if (own != there.end())
+        expected.push_back({std::to_string(x), std::to_string(y),
+                            std::to_string(belongs(shown) ? shown : *own), belongs(shown) ? "1" : "0"});
     }
   }
-  EXPECT_GT(expected.size(), 0U);
+  EXPECT_GT(visible, 0U);
   // Along shared edges the rasterizer decides; these few pixels are centred on none here.
   EXPECT_EQ(readCsv(scratch.file("pixels.csv")), expected);
-  EXPECT_EQ(run.json()["pixels"]["count"], expected.size());
+  EXPECT_EQ(run.json()["pixels"]["count"], visible);
+  EXPECT_EQ(run.json()["hidden"]["count"], expected.size() - visible);
+  EXPECT_EQ(expected.size() > visible, draw >= kOverlapping);
 }
 
-INSTANTIATE_TEST_SUITE_P(Draws, Touched, testing::Values(0, 1, 2, 5));
+INSTANTIATE_TEST_SUITE_P(Draws, Touched, testing::Values(0, 1, 2, 5, kOverlapping, kWithDepth));
 
 TEST(TouchedBy, ThroughAGeometryShader) {
   const Scratch scratch;
@@ -291,11 +303,12 @@ TEST(TouchedBy, ThroughAGeometryShader) {
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       const std::optional<Made> made = madeAt(x, y);
-      if (made && made->primitive == 1) expected.push_back({std::to_string(x), std::to_string(y), "1"});
+      if (made && made->primitive == 1) expected.push_back({std::to_string(x), std::to_string(y), "1", "1"});
     }
   }
   EXPECT_GT(expected.size(), 100U);
   EXPECT_EQ(readCsv(scratch.file("pixels.csv")), expected);
+  EXPECT_EQ(run.json()["hidden"], (Json{{"count", 0}, {"box", nullptr}}));
 }
 
 TEST(TouchedBy, SaysWhereItIsNotKnown) {

@@ -1,7 +1,8 @@
 // OpenGL 4.5 core: triangles given in every way, so that a fragment's three vertices are not where they seem:
 // a list (draw 0), an indexed strip with a base vertex (1), a fan (2), with restarts (3), two instances (4),
 // patches (5), through a geometry shader with two invocations from lines with adjacency (6), the same where
-// the first vertex provokes (7), quads made by patches of four (8), and isolines (9).
+// the first vertex provokes (7), quads made by patches of four (8), isolines (9), a list of triangles that
+// overlap (10), and the same with a depth test (11).
 #include "osmesa_program.h"
 
 static const char* const kVertex = R"glsl(#version 450
@@ -13,6 +14,8 @@ void main()
     vec2 place = vec2(-1.0 + 0.25 * float(at / 2), at % 2 == 0 ? -1.0 : 1.0);
     if (kind == 2)
         place = gl_VertexID == 0 ? vec2(0.0, -1.0) : vec2(-1.0 + 0.25 * float(gl_VertexID - 1), 1.0);
+    if (kind == 3)
+        place = vec2(-1.0 + 0.1 * float(gl_VertexID / 3) + float(gl_VertexID % 3 == 1), gl_VertexID % 3 == 2 ? 1.0 : -1.0);
     number = float(at);
     gl_Position = vec4(place, 0.0, 1.0);
 }
@@ -164,6 +167,13 @@ int main() {
                              {GL_FRAGMENT_SHADER, kFlatFragment}}));
     glDrawArrays(GL_PATCHES, 0, evaluation == kQuads ? 16 : 4);
   }
+
+  glUseProgram(program);
+  glUniform1i(kind, 3);
+  glDrawArrays(GL_TRIANGLES, 0, 30);
+  glEnable(GL_DEPTH_TEST);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glDrawArrays(GL_TRIANGLES, 0, 30);
   glFinish();
   return glGetError() == GL_NO_ERROR ? 0 : 1;
 }
