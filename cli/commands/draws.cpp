@@ -61,7 +61,7 @@ Json describeDraw(session::Session& session, const session::DrawStop& stop) {
   draw["call"] = stop.call;
   draw["mode"] = stop.mode == 0xffffffffu ? Json(nullptr) : Json(session::primitiveModeName(stop.mode));
   draw["count"] = stop.count < 0 ? Json(nullptr) : Json(stop.count);
-  draw["instances"] = stop.instances;
+  draw["instances"] = stop.instances < 0 ? Json(nullptr) : Json(stop.instances);
   draw["program"] = facts.program;
   draw["framebuffer"] = facts.framebuffer;
   draw["viewport"] = {facts.viewport[0], facts.viewport[1], facts.viewport[2], facts.viewport[3]};
@@ -84,7 +84,10 @@ void printDraw(std::uint64_t frame, const Json& draw) {
   std::cout << "frame " << frame << "  draw " << draw["draw"] << "  " << draw["call"].get<std::string>();
   if (!draw["mode"].is_null()) std::cout << "  " << draw["mode"].get<std::string>();
   if (!draw["count"].is_null()) std::cout << "  " << draw["count"] << " vertices";
-  if (draw["instances"] != 1) std::cout << " x " << draw["instances"];
+  if (draw["instances"].is_null())
+    std::cout << "  vertices and instances as a buffer says";
+  else if (draw["instances"] != 1)
+    std::cout << " x " << draw["instances"];
   std::cout << "  program " << draw["program"] << "  framebuffer " << draw["framebuffer"] << "  viewport "
             << draw["viewport"].dump() << "\n";
   if (draw.contains("reason")) std::cout << "    " << draw["reason"].get<std::string>() << "\n";

@@ -90,8 +90,9 @@ TEST(LegacyDraws, AreVerified) {
   EXPECT_EQ(report.at("state_leaks"), 0) << report.dump(1);
   for (const Json& one : report.at("skipped")) {
     EXPECT_EQ(one.at("stage"), "vertex") << report.dump(1);
-    EXPECT_EQ(one.at("reason"), "it writes nothing that could be compared")
-        << "display lists have no feedback";
+    EXPECT_NE(one.at("reason").get<std::string>().find("nobody knows what kind of primitives glCallList"),
+              std::string::npos)
+        << report.dump(1);
   }
 }
 
