@@ -6,6 +6,8 @@
 namespace shadestep::session {
 namespace {
 
+constexpr std::size_t kLargestKept = std::size_t{256} << 20;  // bytes for the next answer to be written to
+
 frontend::Type pixelType(std::uint32_t gl_type) {
   constexpr std::uint32_t kInt = 0x1404, kUnsignedInt = 0x1405;  // GL_INT, GL_UNSIGNED_INT
   frontend::Type type;
@@ -144,6 +146,7 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   Execution result;
   result.memory = known ? state_->answered : std::make_shared<const wire::SharedMemory>();
   const wire::SharedMemory& bulk = *result.memory;
+  if (bulk.size() > kLargestKept) state_->answered.reset();
   result.width = reply.width;
   result.height = reply.height;
   const std::size_t per_plane =

@@ -9,9 +9,13 @@ constinit std::uint64_t last_number = 0;
 
 }  // namespace
 
-void AnswerMemory::begin(std::uint64_t given_back) {
-  free_ = memory_ && given_back == number_;
-  reserved_ = again_ = false;
+void AnswerMemory::begin() {
+  free_ = reserved_ = again_ = false;
+}
+
+void AnswerMemory::giveBack(std::uint64_t number) {
+  free_ = memory_ && number == number_;
+  if (!free_) memory_ = {};
 }
 
 bool AnswerMemory::reserve(std::size_t bytes) {

@@ -12,9 +12,10 @@ namespace shadestep::agent {
 
 class AnswerMemory {
  public:
-  // For the next answer, which has none yet. `given_back`: the number of what the session reads no longer;
-  // 0 = none.
-  void begin(std::uint64_t given_back);
+  // For the next answer, which has none yet.
+  void begin();
+  // The number of what the session reads no longer; 0 = none. What it does not give back stays its own.
+  void giveBack(std::uint64_t number);
   // Room for so many bytes, of any contents. False: there is no memory for it.
   bool reserve(std::size_t bytes);
 

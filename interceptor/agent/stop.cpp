@@ -78,7 +78,7 @@ wire::StoppedT Stop::announcement(std::uint64_t frame, std::uint64_t draw) const
 
 Reply Stop::answer(const wire::MessageT& request) {
   const guard::SilenceGuard silence(facts().context);
-  beside_.begin(0);
+  beside_.begin();
   Reply reply;
   if (request.body.AsDescribe() != nullptr) {
     reply = success(describe(facts()));
@@ -93,7 +93,7 @@ Reply Stop::answer(const wire::MessageT& request) {
   } else if (const wire::PrepareT* prepare_request = request.body.AsPrepare()) {
     reply = replied(prepare(*prepare_request));
   } else if (const wire::ExecuteT* execute_request = request.body.AsExecute()) {
-    beside_.begin(execute_request->given_back);
+    beside_.giveBack(execute_request->given_back);
     reply = replied(execute(*execute_request, beside_));
     if (wire::ExecutedT* executed = reply.message.body.AsExecuted()) executed->memory = beside_.number();
   } else if (const wire::TimeBoxesT* boxes = request.body.AsTimeBoxes()) {

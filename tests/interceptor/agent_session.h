@@ -170,9 +170,10 @@ class Session {
   wire::ExecutedT execute(const wire::ExecuteT& request) {
     const auto reply = ask(request);
     if (const wire::FailedT* failed = reply->body.AsFailed()) ADD_FAILURE() << failed->text;
-    values_ = {};
-    if (bulk_) values_ = wire::SharedMemory::map(std::move(bulk_));
     const wire::ExecutedT* executed = reply->body.AsExecuted();
+    const bool again = executed != nullptr && executed->memory != 0 && executed->memory == request.given_back;
+    if (bulk_ || !again) values_ = {};
+    if (bulk_) values_ = wire::SharedMemory::map(std::move(bulk_));
     EXPECT_NE(executed, nullptr);
     return executed != nullptr ? *executed : wire::ExecutedT{};
   }

@@ -282,6 +282,37 @@ TEST_P(AgentInScene, fillsAStorageBuffer) {
   finishUntouched(*session);
 }
 
+TEST_P(AgentInScene, writesToMemoryAgainThatWasGivenBack) {
+  const auto session = start();
+  session->resumeTo(0, 1);
+  ASSERT_NE(session->receive(), nullptr);
+  wire::PrepareT prepare;
+  prepare.text = joined(*stageOf(session->describe(), wire::Stage::Fragment));
+  if (!old()) prepare.user_outputs = {"color"};
+  wire::ExecuteT request;
+  request.handle = session->prepare(prepare);
+  const auto memoryFor = [&](std::uint32_t word, std::uint64_t words) {
+    request.storage = {word};
+    request.storage_words = words;
+    const wire::ExecutedT executed = session->execute(request);
+    std::vector<std::uint32_t> expected(words, 0);
+    expected[0] = word;
+    EXPECT_EQ(session->values<std::uint32_t>(executed.storage), expected);
+    return executed.memory;
+  };
+  const std::uint64_t first = memoryFor(5, 64);
+  EXPECT_NE(first, 0U);
+  const std::uint64_t second = memoryFor(6, 64);
+  EXPECT_NE(second, first) << "the session may still read the first";
+  request.given_back = second;
+  EXPECT_EQ(memoryFor(7, 32), second) << "there is room for it";
+  const std::uint64_t third = memoryFor(8, 4096);
+  EXPECT_NE(third, second) << "there is none";
+  request.given_back = second;
+  EXPECT_NE(memoryFor(9, 32), second) << "which is gone";
+  finishUntouched(*session);
+}
+
 TEST_P(AgentInScene, coversASquareOfItsOwn) {
   const auto session = start();
   session->resumeTo(0, 1);
