@@ -77,6 +77,7 @@ void Debugger::start(const ProgramSpec& spec) {
   draws_.clear();
   listed_.clear();
   fragments_ = {};
+  resume_at_.reset();
   Q_EMIT drawsChanged();
   leaveStop();
   setProgram(Program::running);
@@ -254,6 +255,7 @@ void Debugger::arrived(Stop stop) {
   }
   changeStage(stageToShow(*stop_, stage()));
   restartShader();
+  resumePlace();
   askTarget();
 }
 
@@ -302,7 +304,8 @@ void Debugger::watchProcess() {
 
 void Debugger::failed(const QString&, const QString& sentence, Outcome outcome) {
   if (backend_.process() == 0) {
-    setProgram(outcome == Outcome::usage ? Program::none : Program::ended);
+    if (program_ == Program::ended) return;  // asked before it was known; nothing new
+    setProgram(program_ == Program::running && outcome == Outcome::usage ? Program::none : Program::ended);
   } else if (program_ == Program::running) {
     setProgram(Program::waiting);
     askCall();

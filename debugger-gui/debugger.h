@@ -34,6 +34,13 @@ struct PictureSource {
   bool operator==(const PictureSource&) const = default;
 };
 
+// A place in a shader as the session file has it.
+struct SavedPlace {
+  session::Stage stage = session::Stage::fragment;
+  QByteArray source;  // tells another text of the shader, in which the numbers of the position mean nothing
+  session::Position position;
+};
+
 class Debugger : public QObject {
   Q_OBJECT
  public:
@@ -145,7 +152,7 @@ class Debugger : public QObject {
   void askBuffer(const session::BoundBuffer&);
   void setFragments(const session::FragmentChoice&);
 
-  // ---- the session file: program, draw, pixel, breakpoints, watches
+  // ---- the session file: program, draw, pixel, place in the shader, picture, breakpoints, watches
   QByteArray saved() const;
   void restore(const QByteArray&);  // starts the program; throws session::Error{usage} for another file
 
@@ -181,6 +188,7 @@ class Debugger : public QObject {
   void askCall();
   void placed(Place);
   void lookAgain();
+  void lookAhead();
   void followRun();
   void setPicked(const Picked&);
   void changeStage(session::Stage);
@@ -193,6 +201,8 @@ class Debugger : public QObject {
   void backAlongWay();
   QStringList expressions() const;
   void addDraw(const DrawEntry&);
+  QByteArray sourceMark() const;
+  void resumePlace();
 
   Backend backend_;
   Program program_ = Program::none;
@@ -224,6 +234,7 @@ class Debugger : public QObject {
   QMap<session::Stage, QMap<int, Breakpoint>> breakpoints_;
   QStringList watches_;
   PictureSource picture_;
+  std::optional<SavedPlace> resume_at_;  // of a session file, once the program is at its draw
   std::unique_ptr<QSocketNotifier> process_end_;
 };
 

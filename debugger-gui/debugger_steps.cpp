@@ -49,7 +49,16 @@ void Debugger::lookAgain() {
         if (!place_ || place_->position != found.first || found.second->stage != stage()) return;
         values_ = found.second;
         Q_EMIT valuesChanged();
+        lookAhead();
       });
+}
+
+// While the user looks.
+void Debugger::lookAhead() {
+  std::vector<std::string> names;
+  for (const QString& name : watches_) names.push_back(name.toStdString());
+  if (picture_.kind == PictureSource::Kind::value) names.push_back(picture_.name.toStdString());
+  backend_.whenIdle([names](Debuggee& debuggee) { debuggee.lookAhead(names); });
 }
 
 void Debugger::move(Move move) {

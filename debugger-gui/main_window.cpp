@@ -49,6 +49,15 @@ MainWindow::MainWindow()
   row->addWidget(notice_text_, 1);
   row->addWidget(close_notice, 0, Qt::AlignTop);
   notice_->hide();
+  // What is quick does not flicker.
+  constexpr int kSoonMs = 150;
+  busy_later_.setSingleShot(true);
+  busy_later_.setInterval(kSoonMs);
+  connect(&busy_later_, &QTimer::timeout, this, [this] {
+    busy_->show();
+    progress_->show();
+    cancel_->show();
+  });
   notice_timer_.setSingleShot(true);
   connect(&notice_timer_, &QTimer::timeout, notice_, &QWidget::hide);
   column->addWidget(notice_);
@@ -90,8 +99,7 @@ void MainWindow::connectDebugger() {
   connect(&backend, &Backend::started, this, [this](const QString& what) {
     busy_->setText(what + "...");
     progress_->setRange(0, 0);
-    progress_->setVisible(true);
-    cancel_->setVisible(true);
+    if (!cancel_->isVisible()) busy_later_.start();
   });
   connect(&backend, &Backend::progress, this, [this](double share) {
     progress_->setRange(0, 1000);
@@ -101,7 +109,8 @@ void MainWindow::connectDebugger() {
     busy_->setText(tr("%1: %2").arg(backend.current()).arg(done));
   });
   connect(&backend, &Backend::becameIdle, this, [this] {
-    busy_->clear();
+    busy_later_.stop();
+    busy_->hide();
     progress_->hide();
     cancel_->hide();
   });
@@ -117,7 +126,7 @@ void MainWindow::askForProgram() {
   auto* dialog = new StartDialog(debugger_.spec(), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QDialog::accepted, this, [this, dialog] { start(dialog->spec()); });
-  dialog->open();
+  dialog->show();
 }
 
 void MainWindow::openSession(const QString& file) {
@@ -141,7 +150,7 @@ void MainWindow::saveSession() {
     const bool written = stored.open(QIODevice::WriteOnly) && stored.write(bytes) == bytes.size();
     showMessage(written ? tr("Wrote %1").arg(file) : tr("Cannot write %1").arg(file), !written);
   });
-  dialog->open();
+  dialog->show();
 }
 
 // ---- the rest of the window

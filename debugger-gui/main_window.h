@@ -70,7 +70,7 @@ class MainWindow : public QMainWindow {
   ThreadsPanel* threads_;
   QFrame* notice_;
   QLabel* notice_text_;
-  QTimer notice_timer_, titles_later_;
+  QTimer notice_timer_, titles_later_, busy_later_;
   QLabel *state_, *driver_, *busy_;
   QProgressBar* progress_;
   QToolButton* cancel_;

@@ -41,7 +41,7 @@ void MainWindow::makeActions() {
     auto* dialog = new QFileDialog(this, tr("Open a session"), {}, tr("Session (*.shadestep)"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, &MainWindow::openSession);
-    dialog->open();
+    dialog->show();
   });
   make("save", tr("&Save the session..."), tr("Save the session: program, draw, pixel, breakpoints, watches"),
        {QKeySequence::Save}, [this] { saveSession(); });
@@ -115,8 +115,9 @@ void MainWindow::makeMenus() {
                                          "to-end", "pause", "", "stop", ""});
   auto* quit = program->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
   quit->setMenuRole(QAction::QuitRole);
-  menu(tr("&Step"), {"run", "over", "into", "out", "", "run-back", "back", "back-into", "back-out", "",
-                     "next-iteration", "leave-loop", "to-cursor", "restart", "", "breakpoint", "breakpoint-if"});
+  menu(tr("&Step"),
+       {"run", "over", "into", "out", "", "run-back", "back", "back-into", "back-out", "", "next-iteration",
+        "leave-loop", "to-cursor", "restart", "", "breakpoint", "breakpoint-if"});
   QMenu* view = menuBar()->addMenu(tr("&View"));
   for (QDockWidget* dock : docks_) view->addAction(dock->toggleViewAction());
   view->addSeparator();
@@ -139,7 +140,8 @@ void MainWindow::makeGoTo(QMenu& menu) {
     if (sources_->currentWidget() != nullptr) sources_->currentWidget()->setFocus(Qt::ShortcutFocusReason);
   });
   int number = 0;
-  for (const char* name : {"frames", "stack", "picture", "variables", "run", "threads", "loops", "cost", "calls", "state"}) {
+  for (const char* name :
+       {"frames", "stack", "picture", "variables", "run", "threads", "loops", "cost", "calls", "state"}) {
     QDockWidget* const dock = docks_.value(name);
     const QKeySequence key(++number < 10 ? QString("Ctrl+%1").arg(number) : QString("Ctrl+Shift+0"));
     QAction* action = menu.addAction(dock->windowTitle(), key, this, [dock] {
@@ -237,6 +239,7 @@ void MainWindow::makeStatus() {
   cancel_->setText(tr("Cancel"));
   cancel_->setAutoRaise(true);
   cancel_->hide();
+  busy_->hide();
   driver_->setForegroundRole(QPalette::PlaceholderText);
   connect(cancel_, &QToolButton::clicked, this, [this] {
     if (debugger_.program() == Debugger::Program::running) {

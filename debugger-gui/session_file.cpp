@@ -1,7 +1,10 @@
 // The session file: what is debugged and what was marked in it, to come back to.
+#include <QCryptographicHash>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+
+#include <utility>
 
 #include "debugger-gui/debugger.h"
 
@@ -14,7 +17,38 @@ session::Stage stageIn(const QJsonObject& object) {
   return session::stageByName(object["stage"].toString("fragment").toStdString())
       .value_or(session::Stage::fragment);
 }
+
+QJsonArray numbersOf(const std::vector<int>& numbers) {
+  QJsonArray array;
+  for (const int number : numbers) array.append(number);
+  return array;
+}
+
+std::vector<int> numbersIn(const QJsonValue& value) {
+  std::vector<int> numbers;
+  for (const QJsonValue number : value.toArray()) numbers.push_back(number.toInt());
+  return numbers;
+}
+
 }  // namespace
+
+// Of the shader that is looked at.
+QByteArray Debugger::sourceMark() const {
+  QCryptographicHash hash(QCryptographicHash::Sha1);
+  if (const StageSource* source = this->source())
+    for (const std::string& line : source->lines) hash.addData(QByteArray::fromStdString(line + "\n"));
+  return hash.result().toHex();
+}
+
+void Debugger::resumePlace() {
+  const auto saved = std::exchange(resume_at_, std::nullopt);
+  if (!saved || saved->stage != stage()) return;
+  if (saved->source != sourceMark())
+    return Q_EMIT message(tr("The shader is another one than when the session was saved: it starts at main"),
+                          false);
+  askPlace(tr("Going to where it was left"),
+           [position = saved->position](Debuggee& debuggee) { return debuggee.moveTo(position); });
+}
 
 QByteArray Debugger::saved() const {
   QJsonArray breakpoints;
@@ -41,6 +75,12 @@ QByteArray Debugger::saved() const {
                        {"breakpoints", breakpoints},
                        {"watches", QJsonArray::fromStringList(watches_)}};
   if (pixel()) document["pixel"] = QJsonArray{pixel()->x, pixel()->y};
+  if (picture_.kind == PictureSource::Kind::value) document["picture"] = picture_.name;
+  if (place_ && !place_->ended)
+    document["place"] = QJsonObject{
+        {"source", QString::fromLatin1(sourceMark())}, {"calls", numbersOf(place_->position.call_path)},
+        {"statement", place_->position.statement},     {"iterations", numbersOf(place_->position.iterations)},
+        {"condition", place_->position.condition},     {"calls done", place_->position.calls_done}};
   return QJsonDocument(document).toJson();
 }
 
@@ -83,7 +123,20 @@ void Debugger::restore(const QByteArray& bytes) {
   Q_EMIT breakpointsChanged();
   Q_EMIT watchesChanged();
   Q_EMIT pickedChanged();
+  picture_ = {};
+  if (const QString name = document["picture"].toString(); !name.isEmpty())
+    picture_ = {PictureSource::Kind::value, name, 0};
+  Q_EMIT pictureChanged();
   start(spec);
+  if (const QJsonObject place = document["place"].toObject(); !place.isEmpty()) {
+    session::Position position;
+    position.call_path = numbersIn(place["calls"]);
+    position.statement = place["statement"].toInt();
+    position.iterations = numbersIn(place["iterations"]);
+    position.condition = place["condition"].toBool();
+    position.calls_done = place["calls done"].toInt();
+    resume_at_ = {stageIn(document), place["source"].toString().toLatin1(), std::move(position)};
+  }
 }
 
 }  // namespace shadestep::gui

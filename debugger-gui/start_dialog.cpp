@@ -109,7 +109,7 @@ void StartDialog::browse(bool program) {
       directory_->setText(path);
     }
   });
-  dialog->open();
+  dialog->show();
 }
 
 QStringList StartDialog::recent() {

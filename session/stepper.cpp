@@ -42,8 +42,18 @@ Stepper::Stepper(Session& session, std::optional<ThreadName> thread, Plan plan)
 
 void Stepper::moveTo(const Position& position) {
   position_ = position;
-  here_.reset();
   sides_.reset();
+  const auto known =
+      std::find_if(known_.begin(), known_.end(), [&](const Known& one) { return one.position == position; });
+  here_ = known == known_.end() ? nullptr : known->values;
+}
+
+// The place itself, the one before and the one after it: values are many.
+void Stepper::remember() {
+  constexpr std::size_t kMostPlaces = 3;
+  std::erase_if(known_, [&](const Known& one) { return one.position == position_; });
+  known_.push_front({position_, here_});
+  if (known_.size() > kMostPlaces) known_.pop_back();
 }
 
 void Stepper::pick(std::optional<ThreadName> thread) {
@@ -81,6 +91,7 @@ std::shared_ptr<const ThreadValues> Stepper::lookShared(const std::vector<std::s
     values = plan_->valuesAt(probe);
   }
   here_ = std::make_shared<const ThreadValues>(std::move(values));
+  remember();
   return here_;
 }
 

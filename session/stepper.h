@@ -3,6 +3,7 @@
 // take another way are simply not at the position; after the branch they are again.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,7 +50,7 @@ class Stepper {
   // The picked thread's place among values of this draw; nothing if none is picked or it is not run.
   std::optional<std::size_t> pickedIn(const ThreadValues&) const;
   // Values of variables in scope, of all threads that are at the position. One redraw (more for more watches
-  // than one draw holds); none for what was looked at here before.
+  // than one draw holds); none for what was looked at here before, if that was one of the last few places.
   ThreadValues look(const std::vector<std::string>& watches);
   // The same and whatever else is known of the position, by their names in any order; shared, as it is much.
   std::shared_ptr<const ThreadValues> lookShared(const std::vector<std::string>& watches);
@@ -68,7 +69,13 @@ class Stepper {
   void choose(const std::string& name = {});
 
  private:
+  struct Known {
+    Position position;
+    std::shared_ptr<const ThreadValues> values;
+  };
+
   bool addFixed(const std::vector<frontend::Watch>&, ThreadValues&);
+  void remember();
   const frontend::Statement& statementAt(frontend::StatementId id) const {
     return shader_.statements[static_cast<std::size_t>(id)];
   }
@@ -82,6 +89,7 @@ class Stepper {
   const bool keeps_fixed_;
   std::unique_ptr<CapturePlan> plan_;
   std::shared_ptr<const ThreadValues> here_;     // what is known of the current position
+  std::deque<Known> known_;                      // and of those looked at last, the latest first
   std::optional<ThreadValues> fixed_;            // of all threads: values that nothing changes
   std::optional<std::vector<TakenSide>> sides_;  // of the current position, once asked for
 };

@@ -16,6 +16,9 @@ constexpr std::size_t kFewest = 2;
 constexpr std::size_t kMost = 32;
 constexpr std::size_t kFirstMost = 8;
 constexpr std::size_t kFirstWords = 24;
+constexpr std::size_t kMostKept = 12;  // windows
+constexpr std::size_t kDrawsToLearnFrom =
+    3;  // the driver compiles in the first; the others may be interrupted
 
 std::vector<std::string> namesOf(const instrumenter::Probe& probe) {
   std::vector<std::string> names;
@@ -91,9 +94,9 @@ std::vector<instrumenter::Probe> partsOf(const instrumenter::Probe& probe, const
 }
 
 ThreadValues WindowPlan::look(const instrumenter::Probe& probe) {
-  if (find(probe) == probes_.size()) moveTo(probe);
+  Around& window = around(probe);
   if (!probe.watches.empty()) names_ = namesOf(probe);
-  instrumenter::Probe place = probes_[find(probe)];
+  instrumenter::Probe place = window.probes[window.find(probe)];
   place.iterations = probe.iterations;
   ThreadValues values;
   bool any = false;
@@ -105,71 +108,81 @@ ThreadValues WindowPlan::look(const instrumenter::Probe& probe) {
     };
     const bool first = i == 0 && (probe.outcome || probe.watches.empty());
     if (!first && std::none_of(probe.watches.begin(), probe.watches.end(), wanted)) continue;
-    ThreadValues found = part(i).valuesAt(parts[i]);
-    if (i == 0) draws_.push_back(part(i).drawTime());
+    ThreadValues found = part(window, i).valuesAt(parts[i]);
+    if (i == 0 && window.draws.size() < kDrawsToLearnFrom) window.draws.push_back(part(window, i).drawTime());
     if (any)
       join(values, std::move(found));
     else
       values = std::move(found);
     any = true;
   }
+  if (!window.learnt && window.draws.size() == kDrawsToLearnFrom) learn(window);
   return values;
 }
 
-std::size_t WindowPlan::find(const instrumenter::Probe& wanted) const {
+std::size_t WindowPlan::Around::find(const instrumenter::Probe& wanted) const {
   const auto serves = [&](const instrumenter::Probe& probe) { return probeServes(probe, wanted); };
-  return static_cast<std::size_t>(std::find_if(probes_.begin(), probes_.end(), serves) - probes_.begin());
+  return static_cast<std::size_t>(std::find_if(probes.begin(), probes.end(), serves) - probes.begin());
 }
 
-Window& WindowPlan::part(std::size_t number) {
-  if (parts_.size() <= number) parts_.resize(number + 1);
-  if (parts_[number]) return *parts_[number];
+Window& WindowPlan::part(Around& window, std::size_t number) {
+  if (window.parts.size() <= number) window.parts.resize(number + 1);
+  if (window.parts[number]) return *window.parts[number];
   std::vector<instrumenter::Probe> probes;
-  for (const instrumenter::Probe& probe : probes_) {
+  for (const instrumenter::Probe& probe : window.probes) {
     std::vector<instrumenter::Probe> parts = partsOf(probe, *room_);
     if (number < parts.size()) probes.push_back(std::move(parts[number]));
   }
-  return parts_[number].emplace(session_, std::move(probes));
+  return window.parts[number].emplace(session_, std::move(probes));
 }
 
-// Compiles a window around the probe's place, smaller ones if it does not fit.
-void WindowPlan::moveTo(const instrumenter::Probe& probe) {
-  const std::size_t size = nextSize(probe);
+WindowPlan::Around& WindowPlan::around(const instrumenter::Probe& probe) {
+  const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Around& window) {
+    return window.find(probe) < window.probes.size();
+  });
+  if (known != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, known);
+    return kept_.front();
+  }
+  if (!room_) room_ = captureRoom(session_, probe);
+  kept_.push_front(compiled(probe, size_ > 0 ? size_ : firstSize(probe)));
+  if (kept_.size() > kMostKept) kept_.pop_back();
+  return kept_.front();
+}
+
+// A window around the probe's place, a smaller one if it does not fit.
+WindowPlan::Around WindowPlan::compiled(const instrumenter::Probe& probe, std::size_t size) {
   std::vector<std::string> names = namesOf(probe);
   for (const auto* more : {&names_, &expected_})
     for (const std::string& name : *more)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  if (!room_) room_ = captureRoom(session_, probe);
-  draws_.clear();
-  const frontend::Shader& shader = session_.shader();
-  for (std::size_t most = size; most > 0; most /= 2) {
-    parts_.clear();
-    probes_ = probesAround(shader, probe, names, most);
+  for (std::size_t most = size;; most /= 2) {
+    Around window{probesAround(session_.shader(), probe, names, most), {}, {}, false};
     // Threads of other stages lie in another order in each pass.
     const bool in_parts =
-        session_.stage() != frontend::Stage::fragment && partsOf(probes_.front(), *room_).size() > 1;
+        session_.stage() != frontend::Stage::fragment && partsOf(window.probes.front(), *room_).size() > 1;
     try {
       if (in_parts)
         throw Error(Outcome::cannot_debug, "so many values of this stage do not fit into one pass");
-      part(0);
-      return;
+      part(window, 0);
+      return window;
     } catch (const Error& error) {
-      if (error.outcome() != Outcome::cannot_debug || most == 1) {
-        probes_.clear();
-        throw;
-      }
+      if (error.outcome() != Outcome::cannot_debug || most <= 1) throw;
     }
   }
 }
 
-std::size_t WindowPlan::nextSize(const instrumenter::Probe& probe) {
-  if (probes_.empty() || draws_.size() < 2) return firstSize(probe);
+// What probes cost where the window is.
+void WindowPlan::learn(Around& window) {
+  window.learnt = true;
   if (!bare_) bare_ = bareDraw(session_);
   WindowCosts costs;
-  costs.probes = probes_.size();
-  costs.draw = *std::min_element(draws_.begin() + 1, draws_.end());
-  costs.compile = part(0).compileTime() + std::max(draws_.front() - costs.draw, nanoseconds(0));
-  return windowSize(costs, *bare_);
+  costs.probes = window.probes.size();
+  costs.draw = *std::min_element(window.draws.begin() + 1, window.draws.end());
+  costs.compile = part(window, 0).compileTime() + std::max(window.draws.front() - costs.draw, nanoseconds(0));
+  // Where the next one is, a probe may cost more.
+  size_ = std::min(windowSize(costs, *bare_), 2 * window.probes.size());
+  if (2 * size_ <= window.probes.size()) kept_.pop_front();
 }
 
 }  // namespace shadestep::session

@@ -1,7 +1,8 @@
-// A window that moves along with the places that are looked at, and is as large as pays off here.
+// Windows around the places that are looked at, as large as pays off there.
 #pragma once
 
 #include <chrono>
+#include <list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,24 +37,33 @@ CaptureRoom captureRoom(Session&, const instrumenter::Probe& at);
 std::vector<instrumenter::Probe> partsOf(const instrumenter::Probe&, const CaptureRoom&);
 
 // A place's values are captured in parts where they are more than a draw holds: a window a part, compiled
-// when one of its values is first asked for.
+// when one of its values is first asked for. The windows used last are kept, so that the next iteration of a
+// loop compiles none; one that turns out too large for what its probes cost makes way for smaller ones.
 class WindowPlan : public CapturePlan {
  public:
   using CapturePlan::CapturePlan;
   void expect(const std::vector<std::string>& names) override { expected_ = names; }
 
  private:
-  ThreadValues look(const instrumenter::Probe&) override;
-  void moveTo(const instrumenter::Probe&);
-  std::size_t nextSize(const instrumenter::Probe&);
-  std::size_t find(const instrumenter::Probe&) const;
-  Window& part(std::size_t);
+  struct Around {
+    std::vector<instrumenter::Probe> probes;  // of its windows, with all that is watched there
+    std::vector<std::optional<Window>> parts;
+    std::vector<std::chrono::nanoseconds> draws;  // the first ones, of the first part
+    bool learnt = false;                          // from these
 
-  std::vector<instrumenter::Probe> probes_;  // of the windows, with all that is watched there
-  std::vector<std::optional<Window>> parts_;
+    std::size_t find(const instrumenter::Probe&) const;  // probes.size(): none serves it
+  };
+
+  ThreadValues look(const instrumenter::Probe&) override;
+  Around& around(const instrumenter::Probe&);
+  Around compiled(const instrumenter::Probe&, std::size_t size);
+  Window& part(Around&, std::size_t);
+  void learn(Around&);
+
+  std::list<Around> kept_;             // the one used last first
   std::vector<std::string> names_;     // watched last: the next windows watch them too
   std::vector<std::string> expected_;  // and these
-  std::vector<std::chrono::nanoseconds> draws_;
+  std::size_t size_ = 0;               // of the next window; 0: nothing is known yet
   std::optional<std::chrono::nanoseconds> bare_;
   std::optional<CaptureRoom> room_;
 };

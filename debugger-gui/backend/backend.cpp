@@ -47,6 +47,15 @@ void Backend::enqueue(const QString& what, const std::string& key,
   outstanding_ -= static_cast<int>(dropped);
 }
 
+void Backend::whenIdle(std::function<void(Debuggee&)> work) {
+  worker_->postIdle([this, work = std::move(work)] {
+    try {
+      work(debuggee_);
+    } catch (const std::exception&) {
+    }
+  });
+}
+
 void Backend::finish() {
   --outstanding_;
   if (outstanding_ > 0) return;

@@ -35,6 +35,10 @@ class Backend : public QObject {
     });
   }
 
+  // Runs on the worker thread when nothing else is asked; only the one given last. Nobody waits for it, and
+  // what goes wrong there goes wrong again when it is asked for.
+  void whenIdle(std::function<void(Debuggee&)> work);
+
   bool idle() const { return outstanding_ == 0; }
   QString current() const { return current_; }
   // Forgets what waits; what runs is asked to stop.

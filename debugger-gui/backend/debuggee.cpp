@@ -247,6 +247,7 @@ session::Stepper& Debuggee::stepper() {
   if (!stepper_) {
     stepper_ = std::make_unique<session::Stepper>(session, pickedThread());
     stepper_->expect(namesToExpect(session.shader()));
+    slow_ahead_ = 0;
   }
   return *stepper_;
 }
@@ -295,6 +296,14 @@ Place Debuggee::move(Move move) {
 }
 
 Place Debuggee::moveTo(const session::Position& position) {
+  const frontend::Shader& shader = stepper().shader();
+  const auto among = [](int id, std::size_t count) {
+    return id >= 0 && static_cast<std::size_t>(id) < count;
+  };
+  const bool calls = std::all_of(position.call_path.begin(), position.call_path.end(),
+                                 [&](frontend::CallId call) { return among(call, shader.calls.size()); });
+  if (!position.ended() && (!calls || !among(position.statement, shader.statements.size())))
+    throw Error(Outcome::usage, "there is no such place in this shader");
   stepper().moveTo(position);
   return place();
 }

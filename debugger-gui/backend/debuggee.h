@@ -59,6 +59,8 @@ class Debuggee {
   Place choose(const std::string& side);
   // `run`: the picked thread's recorded way; null: not known.
   LookPtr look(const std::vector<std::string>& expressions, const RunPtr& run = nullptr);
+  // Looks at where a step over leads: then it takes no draw any more.
+  void lookAhead(const std::vector<std::string>& watches);
   RunPtr followPicked();
   OriginPtr origin(Pixel, session::Stage);  // of the pixel's fragment; the stage that is looked at stays
   EmitsPtr emits();                         // of the draw's geometry shader
@@ -90,9 +92,12 @@ class Debuggee {
   void keep(const session::LoggedCall&);
   DrawEntry entry();
   TargetPtr drawnTarget(bool compare);
+  session::Check readAgain(const BufferView&);
   QImage thumbnail();
   std::string whyNot(session::Stage);
   session::Stepper& stepper();
+  LookPtr lookFrom(session::Stepper&, const std::vector<std::string>& expressions, const RunPtr&) const;
+  static std::vector<ScopeEntry> scopeOf(const session::Stepper&);
   session::Session& atDraw();
   Place place();
   std::optional<session::ThreadName> pickedThread() const;
@@ -100,6 +105,7 @@ class Debuggee {
   session::LaunchOptions launch_;
   std::unique_ptr<session::Session> session_;
   std::unique_ptr<session::Stepper> stepper_;
+  int slow_ahead_ = 0;  // how often in a row looking ahead took too long
   std::optional<session::DrawStop> stop_;
   std::pair<std::uint64_t, std::uint64_t> ahead_;  // the first frame and draw that the program has not passed
   std::vector<session::LoggedCall> calls_;         // since the last halt

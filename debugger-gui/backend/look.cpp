@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 
 #include "debugger-gui/backend/debuggee.h"
 #include "session/window.h"
@@ -22,7 +23,11 @@ session::ThreadValues Look::asked() const {
 }
 
 LookPtr Debuggee::look(const std::vector<std::string>& expressions, const RunPtr& run) {
-  session::Stepper& at = stepper();
+  return lookFrom(stepper(), expressions, run);
+}
+
+LookPtr Debuggee::lookFrom(session::Stepper& at, const std::vector<std::string>& expressions,
+                           const RunPtr& run) const {
   if (at.ended()) return std::make_shared<Look>(std::make_shared<const session::ThreadValues>());
   const instrumenter::Probe probe = session::probeAt(at.shader(), at.position());
   std::vector<std::string> wanted;
@@ -59,6 +64,35 @@ LookPtr Debuggee::look(const std::vector<std::string>& expressions, const RunPtr
       look->refused.emplace_back(name, found->no_value);
   }
   return look;
+}
+
+void Debuggee::lookAhead(const std::vector<std::string>& watches) {
+  // Who asks for something else waits so long at most, and so much memory it takes besides.
+  constexpr std::chrono::milliseconds kMostTime{1000};
+  constexpr std::size_t kMostWords = 64U << 20;
+  if (!stepper_ || stepper_->ended() || slow_ahead_ > 1) return;
+  session::Stepper& at = *stepper_;
+  const session::Position here = at.position();
+  std::size_t words = 0;
+  for (const session::WatchedValues& value : at.lookShared({})->values) words += value.words.size();
+  if (words > kMostWords) return;
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    if (here.condition)
+      at.choose();
+    else
+      at.moveTo(at.navigation().over(here));
+    std::vector<std::string> names = watches;
+    if (!at.ended()) {
+      for (const ScopeEntry& entry : scopeOf(at))
+        if (!entry.large) names.push_back(entry.name);
+    }
+    lookFrom(at, names, nullptr);
+  } catch (const session::Error&) {
+    // Then it is no different when the step is taken.
+  }
+  at.moveTo(here);
+  slow_ahead_ = std::chrono::steady_clock::now() - begin < kMostTime ? 0 : slow_ahead_ + 1;
 }
 
 }  // namespace shadestep::gui

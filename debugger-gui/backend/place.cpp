@@ -32,7 +32,9 @@ std::vector<LoopAround> loopsOf(const Shader& shader, const Place& place) {
   return loops;
 }
 
-std::vector<ScopeEntry> scopeOf(const session::Stepper& stepper) {
+}  // namespace
+
+std::vector<ScopeEntry> Debuggee::scopeOf(const session::Stepper& stepper) {
   const Shader& shader = stepper.shader();
   const instrumenter::Probe probe = session::probeAt(shader, stepper.position());
   const auto changing = stepper.mayChange();
@@ -50,8 +52,6 @@ std::vector<ScopeEntry> scopeOf(const session::Stepper& stepper) {
   }
   return entries;
 }
-
-}  // namespace
 
 Place Debuggee::place() {
   session::Stepper& at = stepper();

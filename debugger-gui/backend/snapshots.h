@@ -168,6 +168,7 @@ struct BufferView {
   session::BoundBuffer bound;
   std::vector<std::byte> bytes;
   session::BlockValues values;  // of a block
+  session::Check check;         // of the bytes, read again behind a replay of the draw
 };
 using BufferPtr = std::shared_ptr<const BufferView>;
 using BufferListPtr = std::shared_ptr<const std::vector<session::BoundBuffer>>;

@@ -11,6 +11,7 @@ Worker::~Worker() {
   {
     const std::lock_guard lock(mutex_);
     tasks_.clear();
+    idle_ = nullptr;
     ending_ = true;
   }
   changed_.notify_all();
@@ -28,6 +29,14 @@ std::size_t Worker::post(const std::string& key, std::function<void()> task) {
   return dropped;
 }
 
+void Worker::postIdle(std::function<void()> task) {
+  {
+    const std::lock_guard lock(mutex_);
+    idle_ = std::move(task);
+  }
+  changed_.notify_all();
+}
+
 bool Worker::idleWithin(std::chrono::milliseconds most) {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, most, [this] { return !running_ && tasks_.empty(); });
@@ -37,6 +46,7 @@ std::size_t Worker::clear() {
   const std::lock_guard lock(mutex_);
   const std::size_t dropped = tasks_.size();
   tasks_.clear();
+  idle_ = nullptr;
   return dropped;
 }
 
@@ -45,10 +55,15 @@ void Worker::run() {
     Task task;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return ending_ || !tasks_.empty(); });
-      if (tasks_.empty()) return;
-      task = std::move(tasks_.front());
-      tasks_.pop_front();
+      changed_.wait(lock, [this] { return ending_ || !tasks_.empty() || idle_; });
+      if (!tasks_.empty()) {
+        task = std::move(tasks_.front());
+        tasks_.pop_front();
+      } else if (idle_) {
+        task.run = std::exchange(idle_, nullptr);
+      } else {
+        return;
+      }
       running_ = true;
     }
     task.run();

@@ -21,9 +21,11 @@ class Worker {
   // A task of the same key that still waits is dropped; those without a key all run. Tasks do not throw.
   // Returns how many were dropped.
   std::size_t post(const std::string& key, std::function<void()> task);
+  // Runs when nothing else is there to do; only the one given last.
+  void postIdle(std::function<void()> task);
   // Waits for what runs, no longer than this; false if it still runs.
   bool idleWithin(std::chrono::milliseconds);
-  // Drops all that still wait; returns how many.
+  // Drops all that still wait; returns how many of those posted.
   std::size_t clear();
 
  private:
@@ -36,6 +38,7 @@ class Worker {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Task> tasks_;
+  std::function<void()> idle_;
   bool running_ = false;
   bool ending_ = false;
   std::thread thread_;

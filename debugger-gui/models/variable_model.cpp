@@ -262,6 +262,10 @@ QVariant VariableModel::data(const QModelIndex& index, int role) const {
                ? tr("No thread has written it on the way here: what the driver holds there is no value")
                : tr("The picked thread has not written it on its way here; others may have");
   if (role == Qt::ToolTipRole && !is_group && index.column() == kValue) return valueText(node);
+  if (role == Qt::ToolTipRole && !is_group && (index.column() == kMin || index.column() == kMax))
+    return range(node, index.column() == kMax);
+  if (role == Qt::ToolTipRole && index.column() == kName && !node.type.isEmpty())
+    return node.type + " " + node.name;
   return {};
 }
 

@@ -52,13 +52,14 @@ BuffersPage::BuffersPage(Debugger& debugger, QWidget* parent)
       components_(new QSpinBox),
       stride_(new QSpinBox),
       normalized_(new QCheckBox(tr("normalized"))),
-      note_(new QLabel) {
+      note_(new QLabel),
+      check_(new CheckBadge) {
   list_->setHeaderLabels({tr("Used as"), tr("Name"), tr("At"), tr("Buffer"), tr("Bytes"), tr("Why not")});
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
   list_->setAlternatingRowColors(true);
   list_->setAccessibleName(tr("Buffers of the draw"));
-  for (const auto& [column, width] : {std::pair{0, 110}, {1, 110}, {2, 34}, {3, 50}, {4, 70}})
+  for (const auto& [column, width] : {std::pair{0, 126}, {1, 96}, {2, 34}, {3, 50}, {4, 70}})
     list_->setColumnWidth(column, width);
   contents_->setModel(&model_);
   contents_->setShowGrid(false);
@@ -67,6 +68,7 @@ BuffersPage::BuffersPage(Debugger& debugger, QWidget* parent)
   contents_->setAccessibleName(tr("What stands in the buffer"));
   contents_->verticalHeader()->setDefaultSectionSize(contents_->fontMetrics().height() + 6);
   contents_->horizontalHeader()->setStretchLastSection(true);
+  contents_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   format_->setToolTip(tr("What the bytes are read as"));
   format_->setAccessibleName(tr("Format"));
   format_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
@@ -77,10 +79,11 @@ BuffersPage::BuffersPage(Debugger& debugger, QWidget* parent)
   stride_->setSuffix(tr(" bytes apart"));
   stride_->setToolTip(tr("From the begin of one element to the next"));
   normalized_->setToolTip(tr("Whole numbers stand for 0 to 1, or -1 to 1"));
-  note_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  note_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  note_->setMinimumWidth(40);
 
   auto* right = new QWidget;
-  layOutPage(*right, {format_, components_, stride_, normalized_, note_}, contents_);
+  layOutPage(*right, {format_, components_, stride_, normalized_, note_, check_}, contents_);
   auto* split = new QSplitter;
   split->addWidget(list_);
   split->addWidget(right);
@@ -96,10 +99,13 @@ BuffersPage::BuffersPage(Debugger& debugger, QWidget* parent)
   connect(normalized_, &QCheckBox::toggled, this, &BuffersPage::takeFormat);
   connect(&debugger_, &Debugger::buffersChanged, this, &BuffersPage::refresh);
   connect(&debugger_, &Debugger::bufferChanged, this, &BuffersPage::arrived);
+  // Of values: a change of the theme tells of them.
+  connect(&debugger_, &Debugger::valuesChanged, this, &BuffersPage::refreshCheck);
   connect(&debugger_, &Debugger::stopChanged, this, [this] {
     if (debugger_.stop()) return;  // what was seen last stays until there is something else
     model_.show(nullptr);
     list_->clear();
+    refreshCheck();
   });
 }
 
@@ -136,6 +142,7 @@ void BuffersPage::choose() {
   const session::BoundBuffer* const bound = chosen();
   if (bound == nullptr) return;
   model_.show(nullptr);
+  check_->setCheck(std::nullopt);
   note_->setText(QString::fromStdString(bound->reason));
   const QSignalBlocker quiet[] = {QSignalBlocker(format_), QSignalBlocker(components_),
                                   QSignalBlocker(stride_), QSignalBlocker(normalized_)};
@@ -180,6 +187,16 @@ void BuffersPage::arrived() {
     notes.push_back(tr("a new element every %n instances", "", buffer->bound.divisor));
   note_->setText(notes.isEmpty() ? tr("before the draw") : notes.join("; "));
   contents_->resizeColumnsToContents();
+  refreshCheck();
+}
+
+void BuffersPage::refreshCheck() {
+  const BufferPtr& buffer = debugger_.buffer();
+  check_->setCheck(buffer ? std::optional(buffer->check) : std::nullopt);
+  if (!buffer) return;
+  check_->setToolTip(buffer->check.compared_at_all
+                         ? tr("The bytes before the draw, and once more behind a replay of it")
+                         : tr("Read once: %1").arg(QString::fromStdString(buffer->check.reason)));
 }
 
 }  // namespace shadestep::gui

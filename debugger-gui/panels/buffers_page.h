@@ -11,6 +11,7 @@
 
 #include "debugger-gui/debugger.h"
 #include "debugger-gui/models/buffer_model.h"
+#include "debugger-gui/views/check_badge.h"
 
 namespace shadestep::gui {
 
@@ -31,6 +32,7 @@ class BuffersPage : public QWidget {
   void choose();
   void arrived();
   void takeFormat();
+  void refreshCheck();
   const session::BoundBuffer* chosen() const;
 
   Debugger& debugger_;
@@ -41,6 +43,7 @@ class BuffersPage : public QWidget {
   QSpinBox *components_, *stride_;
   QCheckBox* normalized_;
   QLabel* note_;
+  CheckBadge* check_;
 };
 
 }  // namespace shadestep::gui

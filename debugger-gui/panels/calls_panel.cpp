@@ -113,7 +113,7 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   head->addWidget(search_, 1);
   search_->setPlaceholderText(tr("Search the log"));
 
-  arguments_->setHeaderLabels({tr("Argument"), tr("Value (double-click or Enter to change)")});
+  arguments_->setHeaderLabels({tr("Argument"), tr("Value (Enter changes it)")});
   arguments_->setRootIsDecorated(false);
   arguments_->setColumnWidth(0, 110);
   filter_.setSourceModel(&model_);
@@ -127,6 +127,7 @@ CallsPanel::CallsPanel(Debugger& debugger, QWidget* parent)
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
   table_->horizontalHeader()->setStretchLastSection(true);
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table_->setColumnWidth(0, 60);
   table_->setColumnWidth(1, 420);
   auto* call = new QVBoxLayout;

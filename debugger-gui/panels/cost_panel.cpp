@@ -154,7 +154,7 @@ void CostPanel::chooseEarlier() {
   auto* dialog = new QFileDialog(this, tr("Compare with"), {}, tr("Profile (*.json)"));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QFileDialog::fileSelected, earlier_, &QLineEdit::setText);
-  dialog->open();
+  dialog->show();
 }
 
 void CostPanel::saveAll() {
@@ -180,7 +180,7 @@ void CostPanel::saveAll() {
               Q_EMIT debugger_.message(QString::fromUtf8(error.what()), true);
             }
           });
-  dialog->open();
+  dialog->show();
 }
 
 }  // namespace shadestep::gui

@@ -27,7 +27,8 @@ FramePanel::FramePanel(Debugger& debugger, QWidget* parent)
   tree_->setIndentation(12);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->header()->setStretchLastSection(true);
-  for (const auto& [column, width] : {std::pair{0, 92}, {1, 108}, {2, 92}, {3, 58}})
+  tree_->header()->setMinimumSectionSize(24);
+  for (const auto& [column, width] : {std::pair{0, 84}, {1, 116}, {2, 92}, {3, 58}})
     tree_->setColumnWidth(column, width);
   tree_->setAccessibleName(tr("Frames and draws"));
   layOutPage(*this, {search_, thumbnails_}, tree_);

@@ -16,7 +16,8 @@ namespace {
 using Kind = PictureSource::Kind;
 
 QString number(double value) {
-  return QString::number(value, 'g', 5);
+  const QString text = QString::number(value, 'g', 5);
+  return text.contains('e') ? QString::number(value, 'g', 3) : text;
 }
 
 QPixmap swatch(QRgb color) {
@@ -58,7 +59,7 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
   channels_->addItems({tr("RGB"), "R", "G", "B", "A"});
   channels_->setToolTip(tr("Channels"));
   for (QLineEdit* edit : {low_, high_}) {
-    edit->setFixedWidth(74);
+    edit->setFixedWidth(77);
     edit->setAlignment(Qt::AlignRight);
   }
   low_->setToolTip(tr("Shown black"));
@@ -72,7 +73,9 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
   gamma_->setValue(1);
   gamma_->setPrefix("γ ");
   gamma_->setToolTip(tr("Gamma: above 1 brightens small values"));
-  hovered_->setFont(monospaced());
+  QFont small = monospaced();
+  small.setPointSizeF(small.pointSizeF() - 1);
+  hovered_->setFont(small);
   hovered_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   hovered_->setMinimumWidth(60);
   hovered_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -92,6 +95,7 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
   auto* head = new QHBoxLayout;
   head->setContentsMargins(6, 2, 6, 0);
   head->addWidget(sources_, 1);
+  head->addWidget(origin_);
   head->addWidget(check_);
   column->addLayout(head);
   auto* tools = new QHBoxLayout;
@@ -116,7 +120,6 @@ PicturePanel::PicturePanel(Debugger& debugger, QWidget* parent)
   auto* foot = new QHBoxLayout;
   foot->setContentsMargins(8, 0, 8, 0);
   foot->addWidget(hovered_);
-  foot->addWidget(origin_);
   column->addLayout(foot);
   sides_->hide();
 
@@ -323,7 +326,9 @@ void PicturePanel::showHovered(int x, int y) {
   }
   QString text = view_->describe(x, y);
   if (text.isEmpty()) text = view_->picture() ? tr("A click picks a thread") : QString();
-  hovered_->setText(text);
+  // A number that is cut off would be another number.
+  hovered_->setText(hovered_->fontMetrics().elidedText(text, Qt::ElideRight, hovered_->width()));
+  hovered_->setToolTip(text);
 }
 
 void PicturePanel::showInSpace(bool on) {
@@ -345,8 +350,13 @@ void PicturePanel::takeMapping() {
   if (!mapping.automatic) {
     bool low_is_number = false;
     bool high_is_number = false;
-    const double low = low_->text().toDouble(&low_is_number);
-    const double high = high_->text().toDouble(&high_is_number);
+    // What stands there is rounded.
+    const auto typed = [](const QLineEdit& edit, double now, bool* is_number) {
+      const double read = edit.text().toDouble(is_number);
+      return edit.text() == number(now) ? now : read;
+    };
+    const double low = typed(*low_, mapping.low, &low_is_number);
+    const double high = typed(*high_, mapping.high, &high_is_number);
     if (low_is_number && high_is_number && low < high) {
       mapping.low = low;
       mapping.high = high;
@@ -364,7 +374,7 @@ void PicturePanel::exportPicture() {
     const bool written = image.save(file);
     Q_EMIT debugger_.message(written ? tr("Wrote %1").arg(file) : tr("Cannot write %1").arg(file), !written);
   });
-  dialog->open();
+  dialog->show();
 }
 
 }  // namespace shadestep::gui

@@ -100,6 +100,7 @@ RunPanel::RunPanel(Debugger& debugger, QWidget* parent)
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
   table_->horizontalHeader()->setStretchLastSection(true);
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table_->horizontalHeader()->setHighlightSections(false);
   table_->setAccessibleName(tr("Steps of the picked thread"));
   for (const auto& [column, width] : {std::pair{0, 52}, {1, 46}, {2, 66}, {3, 330}})

@@ -170,7 +170,7 @@ void SourceTabs::editBreakpoint(int line) {
     after.condition = condition.trimmed();
     debugger_.setBreakpoint(line, after);
   });
-  dialog->open();
+  dialog->show();
 }
 
 }  // namespace shadestep::gui

@@ -100,7 +100,7 @@ QWidget* StatePanel::makeTextures() {
   textures_->setUniformRowHeights(true);
   textures_->setAlternatingRowColors(true);
   textures_->setAccessibleName(tr("Textures of the fragment shader"));
-  for (const auto& [column, width] : {std::pair{0, 130}, {1, 90}, {2, 44}, {3, 56}, {4, 110}, {5, 52}})
+  for (const auto& [column, width] : {std::pair{0, 130}, {1, 90}, {2, 44}, {3, 60}, {4, 128}, {5, 52}})
     textures_->setColumnWidth(column, width);
   level_->setPrefix(tr("level "));
   slice_->setPrefix(tr("slice "));

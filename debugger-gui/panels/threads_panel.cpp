@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QFileDialog>
+#include <QFormLayout>
 #include <QHeaderView>
 #include <QPushButton>
 #include <QShortcut>
@@ -26,7 +27,6 @@ ThreadsPanel::ThreadsPanel(Debugger& debugger, QWidget* parent)
       scatter_(new ScatterView),
       tree_(new QTreeView),
       emitting_only_(new QCheckBox(tr("Only those of which something is made"))) {
-  tabs_->setDocumentMode(true);
   tabs_->addTab(makeTable(), tr("Table"));
   tabs_->addTab(makeScatter(), tr("Scatter plot"));
   tabs_->addTab(makeTree(), tr("What is made"));
@@ -91,20 +91,17 @@ QWidget* ThreadsPanel::makeScatter() {
   auto* columns = new QHBoxLayout(page);
   columns->setContentsMargins(0, 0, 6, 4);
   auto* side = new QVBoxLayout;
-  side->setSpacing(3);
+  auto* form = new QFormLayout;
+  form->setVerticalSpacing(3);
   const QString names[] = {tr("Across"), tr("Along"), tr("Up"), tr("Colour")};
   for (int i = 0; i < 4; ++i) {
     axes_[i] = new QComboBox;
     axes_[i]->setMinimumContentsLength(12);
     axes_[i]->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    auto* label = new QLabel(names[i]);
-    label->setBuddy(axes_[i]);
-    auto* line = new QHBoxLayout;
-    line->addWidget(label);
-    line->addWidget(axes_[i], 1);
-    side->addLayout(line);
+    form->addRow(names[i], axes_[i]);
     connect(axes_[i], &QComboBox::activated, this, &ThreadsPanel::refreshPlot);
   }
+  side->addLayout(form);
   side->addStretch();
   columns->addWidget(scatter_, 1);
   columns->addLayout(side);
@@ -272,7 +269,7 @@ void ThreadsPanel::exportCsv() {
       Q_EMIT debugger_.message(QString::fromUtf8(error.what()), true);
     }
   });
-  dialog->open();
+  dialog->show();
 }
 
 }  // namespace shadestep::gui

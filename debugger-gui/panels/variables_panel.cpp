@@ -6,6 +6,7 @@
 #include <QHeaderView>
 #include <QMenu>
 #include <QShortcut>
+#include <QStyledItemDelegate>
 #include <QVBoxLayout>
 
 #include "debugger-gui/panels/page.h"
@@ -13,6 +14,22 @@
 #include "session/text.h"
 
 namespace shadestep::gui {
+namespace {
+
+// A number without its exponent would be another number.
+class ElideDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    if (index.column() == VariableModel::kMin || index.column() == VariableModel::kMax)
+      option->textElideMode = Qt::ElideMiddle;
+  }
+};
+
+}  // namespace
 
 VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
     : QWidget(parent),
@@ -29,9 +46,14 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   tree_->setIndentation(14);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setAccessibleName(tr("Variables"));
-  tree_->header()->setStretchLastSection(true);
-  for (const auto& [column, width] : {std::pair{0, 130}, {1, 168}, {2, 70}, {3, 70}})
+  // All that is looked at all the time stands in sight; a name's tooltip says its type.
+  tree_->hideColumn(VariableModel::kType);
+  tree_->header()->setStretchLastSection(false);
+  tree_->header()->setSectionResizeMode(VariableModel::kValue, QHeaderView::Stretch);
+  for (const auto& [column, width] :
+       {std::pair{VariableModel::kName, 112}, {VariableModel::kMin, 84}, {VariableModel::kMax, 84}})
     tree_->setColumnWidth(column, width);
+  tree_->setItemDelegate(new ElideDelegate(tree_));
 
   layOutPage(*this, {expression_, check_}, tree_);
   layout()->addWidget(histogram_);
@@ -137,7 +159,7 @@ void VariablesPanel::exportCsv(const QString& expression) {
               Q_EMIT debugger_.message(QString::fromUtf8(error.what()), true);
             }
           });
-  dialog->open();
+  dialog->show();
 }
 
 }  // namespace shadestep::gui

@@ -108,6 +108,7 @@ QString styleSheet(const Theme& theme) {
     QDockWidget::title { background: %1; padding: 5px 8px 4px 8px; text-align: left; }
     QTreeView, QTableView, QListView { border: 0; border-top: 1px solid %2; }
     QTreeView::item { padding: 2px 4px; border: 0; }
+    QListView::item { padding: 2px 6px; }
     QTreeView::item:selected { background: %7; color: white; }
     QHeaderView::section { background: %1; color: %4; border: 0; border-bottom: 1px solid %2; padding: 3px 6px; }
     QTabBar::tab { background: transparent; padding: 5px 12px; border: 0; border-bottom: 2px solid transparent;

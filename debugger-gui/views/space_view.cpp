@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kPerPixel = 0.4;  // degrees that a drag turns
 constexpr double kPerKey = 5;      // degrees
+constexpr int kLabels = 56;        // screen pixels beside the box
 constexpr double kDistance = 4;    // of the eye from the middle, in edges of the box
 
 double radians(double degrees) {
@@ -51,7 +52,8 @@ SpaceView::Seen SpaceView::seen(double x, double y, double up) const {
   const double tilt = radians(above_);
   const double high = (up - 0.5) * std::cos(tilt) + away * std::sin(tilt);
   const double near = (up - 0.5) * std::sin(tilt) - away * std::cos(tilt);
-  const double scale = zoom_ * 0.54 * std::min(width(), height()) * kDistance / (kDistance - near);
+  const double room = std::max(40, std::min(width() - 2 * kLabels, height() - kLabels));
+  const double scale = zoom_ * 0.54 * room * kDistance / (kDistance - near);
   return {{width() / 2.0 + scale * right, height() / 2.0 - scale * high}, near};
 }
 
@@ -109,7 +111,10 @@ void SpaceView::paintTicks(QPainter& painter, const Axis& axis, int which) const
     label(at(best, t), 18, QString::fromStdString(tick.label));
   }
   painter.setPen(theme().text);
-  label(at(best, 0.5), 42, axis.name);
+  if (which == 2)  // above the edge: beside it there are the ticks
+    painter.drawText(QRectF(at(best, 1).x() - 90, at(best, 1).y() - 30, 180, 18), Qt::AlignCenter, axis.name);
+  else
+    label(at(best, 0.5), 42, axis.name);
 }
 
 void SpaceView::mousePressEvent(QMouseEvent* event) {

@@ -118,6 +118,19 @@ TEST_F(Buffers, AnyFormatCanBeChosen) {
   EXPECT_EQ(member("Light.power").value(2), "0.25");
 }
 
+TEST_F(Buffers, HaveTheirCheckBesideThem) {
+  auto* badge = page_->findChild<gui::CheckBadge*>();
+  ASSERT_NE(badge, nullptr);
+  EXPECT_TRUE(badge->isVisibleTo(page_));
+  EXPECT_EQ(badge->text(), "no values yet");
+  choose("storage block", "Items");
+  EXPECT_EQ(badge->text(), "identical");
+  ASSERT_TRUE(window_.debugger().buffer());
+  EXPECT_EQ(window_.debugger().buffer()->check.compared, window_.debugger().buffer()->bytes.size());
+  window_.start(smallRaycaster());
+  EXPECT_EQ(badge->text(), "no values yet");
+}
+
 TEST_F(Buffers, TheDrawReadsNoneSaysSo) {
   window_.start(smallRaycaster());
   window_.settle();

@@ -4,6 +4,9 @@
 
 #include <QFile>
 #include <QTemporaryDir>
+#include <chrono>
+#include <future>
+#include <utility>
 
 #include "window.h"
 
@@ -38,14 +41,17 @@ TEST(Draw, ProfilesAndCountsLoopsAsTheCommandLineDoes) {
 TEST(Draw, CancellingAProfileKeepsWhatWasMeasured) {
   Window window;
   window.start(smallRaycaster());
-  bool reported = false;
-  QObject::connect(&window.debugger().backend(), &gui::Backend::progress, &*window, [&] { reported = true; });
-  window.debugger().askProfile({"isolate", 3000, {}});
-  ASSERT_TRUE(QTest::qWaitFor([&] { return reported; }, 30'000));
-  window.debugger().cancel();
+  // However early that is: one visit is measured at least, and the budget would last for hours.
+  bool begun = false;
+  QObject::connect(&window.debugger().backend(), &gui::Backend::started, &*window, [&](const QString& what) {
+    if (what == "Measuring costs" && !std::exchange(begun, true)) window.debugger().cancel();
+  });
+  window.debugger().askProfile({"isolate", 9000, {}});
   window.settle();
+  ASSERT_TRUE(begun) << window.lastMessage().toStdString();
   ASSERT_TRUE(window.debugger().profile()) << window.lastMessage().toStdString();
   EXPECT_GT(window.debugger().profile()->profile.measured, 0U);
+  EXPECT_TRUE(window.debugger().profile()->profile.interrupted);
 }
 
 TEST(Draw, GoesToDrawsAndListsThem) {
@@ -116,9 +122,41 @@ TEST(Draw, OutlivesTheProgram) {
   ASSERT_EQ(kill(window.debugger().backend().process(), SIGKILL), 0);
   ASSERT_TRUE(QTest::qWaitFor(
       [&] { return window.debugger().idle() && window.debugger().program() == Debugger::Program::ended; },
-      20'000));
+      Window::kPatienceMs));
   EXPECT_TRUE(window.lastMessage().contains("signal 9")) << window.lastMessage().toStdString();
   window.press("start");  // the dialog comes up and blocks nothing
+  window.start(smallRaycaster());
+  EXPECT_EQ(window.debugger().program(), Debugger::Program::stopped);
+}
+
+// While its answer is waited for, and whatever is asked next.
+TEST(Draw, OutlivesAProgramThatDiesInACapture) {
+  Window window;
+  for (const QString what :
+       {"Stepping", "Reading values", "Recording the picked thread", "Measuring costs"}) {
+    SCOPED_TRACE(what.toStdString());
+    window.start(smallRaycaster());
+    ASSERT_EQ(window.debugger().program(), Debugger::Program::stopped) << window.lastMessage().toStdString();
+    QObject context;
+    bool killed = false;
+    QObject::connect(&window.debugger().backend(), &gui::Backend::started, &context,
+                     [&](const QString& started) {
+                       if (started != what || std::exchange(killed, true)) return;
+                       kill(window.debugger().backend().process(), SIGKILL);
+                     });
+    window.debugger().move(gui::Move::over);
+    window.debugger().pick(gui::Pixel{32, 30});
+    window.debugger().askProfile({"count", 5, {}});
+    window.debugger().move(gui::Move::over);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return window.debugger().idle() && window.debugger().program() == Debugger::Program::ended; },
+        Window::kPatienceMs))
+        << window.debugger().idle() << " " << static_cast<int>(window.debugger().program()) << " "
+        << window.lastMessage().toStdString();
+    EXPECT_TRUE(killed);
+    EXPECT_FALSE(window->action("over")->isEnabled());
+    EXPECT_TRUE(window.lastMessage().contains("'Run' starts it again")) << window.lastMessage().toStdString();
+  }
   window.start(smallRaycaster());
   EXPECT_EQ(window.debugger().program(), Debugger::Program::stopped);
 }
@@ -163,13 +201,25 @@ TEST(Draw, StopsAtCallsAndChangesThem) {
 TEST(Draw, ASessionComesBack) {
   QTemporaryDir directory;
   const QString file = directory.filePath("s.shadestep");
+  session::Position left;
+  QString shown;
   {
     Window window;
     window.start(smallRaycaster());
     window.pick(20, 31);
     window.debugger().toggleBreakpoint(40);
     window.debugger().addWatch("position.x");
+    window.debugger().show({gui::PictureSource::Kind::value, "dst", 0});
     window.settle();
+    for (int i = 0; i < 60 && window.debugger().place()->loops.empty(); ++i) window.press("over");
+    window.debugger().setIteration(0, 7);
+    window.settle();
+    for (int i = 0; i < 60 && window.debugger().place()->stack.size() < 2; ++i) window.press("into");
+    left = window.debugger().place()->position;
+    ASSERT_EQ(left.iterations, std::vector<int>{7});
+    ASSERT_EQ(left.call_path.size(), 1U);
+    shown = window.shown("front");
+    ASSERT_FALSE(shown.isEmpty());
     QFile stored(file);
     ASSERT_TRUE(stored.open(QIODevice::WriteOnly));
     stored.write(window.debugger().saved());
@@ -182,6 +232,54 @@ TEST(Draw, ASessionComesBack) {
   EXPECT_TRUE(window.debugger().breakpoints().contains(40));
   EXPECT_TRUE(window.debugger().watches().contains("position.x"));
   EXPECT_FALSE(window.shown("position.x").isEmpty());
+  ASSERT_TRUE(window.debugger().place());
+  EXPECT_EQ(window.debugger().place()->position, left);
+  EXPECT_EQ(window.shown("front"), shown);
+  EXPECT_EQ(window.debugger().picture(), (gui::PictureSource{gui::PictureSource::Kind::value, "dst", 0}));
+}
+
+// Its numbers would mean something else.
+TEST(Draw, ASessionOfAnotherShaderStartsAtMain) {
+  Window window;
+  window.start(smallRaycaster());
+  const session::Position start = window.debugger().place()->position;
+  window.press("over");
+  QByteArray stored = window.debugger().saved();
+  const qsizetype at = stored.indexOf("\"source\": \"") + 11;
+  ASSERT_GT(at, 11);
+  stored[at] = stored[at] == '0' ? '1' : '0';
+  window.debugger().restore(stored);
+  window.settle();
+  EXPECT_EQ(window.debugger().place()->position, start);
+  EXPECT_TRUE(window.lastMessage().contains("another one")) << window.lastMessage().toStdString();
+}
+
+TEST(Draw, LooksAheadAndBackWithoutDrawing) {
+  gui::Debuggee debuggee;
+  session::LaunchOptions launch;
+  launch.command = smallRaycaster();
+  debuggee.start(launch);
+  debuggee.goTo(0, 0);
+  gui::Picked picked;
+  picked.pixel = gui::Pixel{32, 30};
+  const auto looked = [&](const gui::Place& place) {
+    std::vector<std::string> names;
+    for (const gui::ScopeEntry& entry : place.scope) names.push_back(entry.name);
+    return debuggee.look(names);
+  };
+  const session::Position first = debuggee.restartShader(picked).position;
+  const gui::LookPtr before = looked(debuggee.moveTo(first));
+  debuggee.lookAhead({});
+  ASSERT_EQ(kill(debuggee.process(), SIGSTOP), 0);  // it draws no more
+  auto steps = std::async(std::launch::async, [&] {
+    const gui::LookPtr ahead = looked(debuggee.move(gui::Move::over));
+    return std::pair(ahead, looked(debuggee.moveTo(first)));
+  });
+  EXPECT_EQ(steps.wait_for(std::chrono::milliseconds(Window::kPatienceMs / 10)), std::future_status::ready);
+  kill(debuggee.process(), SIGCONT);
+  const auto [ahead, back] = steps.get();
+  EXPECT_GT(ahead->threads.reached, 0U);
+  EXPECT_EQ(&back->threads, &before->threads);
 }
 
 }  // namespace

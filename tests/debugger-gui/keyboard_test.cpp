@@ -1,7 +1,9 @@
 // The window without a mouse.
 #include <gtest/gtest.h>
 
+#include <QDialog>
 #include <QMenuBar>
+#include <QSettings>
 #include <QTabBar>
 #include <set>
 
@@ -115,6 +117,57 @@ TEST(Keyboard, StepsBothWays) {
   EXPECT_EQ(window.debugger().place()->stack.size(), 2U) << "back into the call";
   press(Qt::Key_F11, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_EQ(window.debugger().place()->stack.size(), 1U) << "before it";
+}
+
+TEST(Keyboard, NoDialogBlocksTheNextStep) {
+  Window window;
+  window.start(smallRaycaster());
+  window.pick(32, 30);
+  QApplication::setActiveWindow(&*window);  // there is no window manager
+  for (const char* name : {"start", "open", "save", "breakpoint-if"}) {
+    window.press(name);
+    EXPECT_EQ(QApplication::activeModalWidget(), nullptr) << name;
+    const auto dialogs = window->findChildren<QDialog*>();
+    ASSERT_EQ(dialogs.size(), 1) << name;
+    const session::Position before = window.debugger().place()->position;
+    QApplication::setActiveWindow(&*window);
+    QTest::keyClick(&*window, Qt::Key_F10);
+    window.settle();
+    EXPECT_NE(window.debugger().place()->position, before) << name;
+    delete dialogs.front();
+  }
+}
+
+TEST(Keyboard, TheLayoutIsRemembered) {
+  const auto layout = [](Window& window) {
+    QStringList shown;
+    for (const char* name : kDocks)
+      shown.push_back(QString("%1 %2 %3")
+                          .arg(name)
+                          .arg(window->dock(name)->isFloating())
+                          .arg(window->dock(name)->isVisibleTo(&*window)));
+    return shown;
+  };
+  QSettings().clear();
+  QStringList first, left;
+  {
+    Window window;
+    window->resize(1400, 900);
+    first = layout(window);
+    window->dock("stack")->hide();
+    window->dock("cost")->setFloating(true);
+    left = layout(window);
+    window->close();
+  }
+  EXPECT_NE(first, left);
+  {
+    Window window;
+    EXPECT_EQ(layout(window), left);
+    EXPECT_EQ(window->size(), QSize(1400, 900));
+    window->resetLayout();
+    EXPECT_EQ(layout(window), first);
+  }
+  QSettings().clear();
 }
 
 // Titles stand on tabs or above panels, not on both.

@@ -20,8 +20,7 @@ void Window::start(const std::vector<std::string>& program, std::uint64_t frame,
 }
 
 void Window::settle() {
-  constexpr int kTooLongMs = 60'000;
-  ASSERT_TRUE(QTest::qWaitFor([this] { return debugger().idle(); }, kTooLongMs))
+  ASSERT_TRUE(QTest::qWaitFor([this] { return debugger().idle(); }, kPatienceMs))
       << "the debugger is still busy";
 }
 

@@ -18,7 +18,10 @@ class Window {
   gui::Debugger& debugger() { return window_.debugger(); }
 
   void start(const std::vector<std::string>& program, std::uint64_t frame = 0, std::uint64_t draw = 0);
-  void settle();                      // until nothing is asked any more; fails the test after a minute
+  // The longest that anything waited for may take: no measure of speed, but an end to what hangs.
+  static constexpr int kPatienceMs = 300'000;
+
+  void settle();                      // until nothing is asked any more; fails the test after kPatienceMs
   void press(const QString& action);  // triggers an action as its key does, and settles
   // Clicks the pixel in the picture view and settles.
   void pick(int x, int y);
