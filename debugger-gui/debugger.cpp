@@ -305,7 +305,11 @@ void Debugger::watchProcess() {
 void Debugger::failed(const QString&, const QString& sentence, Outcome outcome) {
   if (backend_.process() == 0) {
     if (program_ == Program::ended) return;  // asked before it was known; nothing new
-    setProgram(program_ == Program::running && outcome == Outcome::usage ? Program::none : Program::ended);
+    const bool began = program_ != Program::running;
+    setProgram(!began && outcome == Outcome::usage ? Program::none : Program::ended);
+    const QString again = tr("'Run' starts it again");
+    if (began && !sentence.contains(again))
+      return Q_EMIT message(tr("%1. What was seen last stays here; %2.").arg(sentence, again), true);
   } else if (program_ == Program::running) {
     setProgram(Program::waiting);
     askCall();

@@ -132,6 +132,7 @@ TEST(Draw, OutlivesTheProgram) {
 // While its answer is waited for, and whatever is asked next.
 TEST(Draw, OutlivesAProgramThatDiesInACapture) {
   Window window;
+  int row = 30;
   for (const QString what :
        {"Stepping", "Reading values", "Recording the picked thread", "Measuring costs"}) {
     SCOPED_TRACE(what.toStdString());
@@ -145,7 +146,7 @@ TEST(Draw, OutlivesAProgramThatDiesInACapture) {
                        kill(window.debugger().backend().process(), SIGKILL);
                      });
     window.debugger().move(gui::Move::over);
-    window.debugger().pick(gui::Pixel{32, 30});
+    window.debugger().pick(gui::Pixel{32, row++});  // another one: what is picked stays picked
     window.debugger().askProfile({"count", 5, {}});
     window.debugger().move(gui::Move::over);
     ASSERT_TRUE(QTest::qWaitFor(
