@@ -305,7 +305,7 @@ void Debugger::watchProcess() {
 void Debugger::failed(const QString&, const QString& sentence, Outcome outcome) {
   if (backend_.process() == 0) {
     if (program_ == Program::ended) return;  // asked before it was known; nothing new
-    const bool began = program_ != Program::running;
+    const bool began = program_ == Program::stopped || program_ == Program::waiting;
     setProgram(!began && outcome == Outcome::usage ? Program::none : Program::ended);
     const QString again = tr("'Run' starts it again");
     if (began && !sentence.contains(again))

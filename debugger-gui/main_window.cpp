@@ -89,6 +89,7 @@ void MainWindow::connectDebugger() {
   connect(&debugger_, &Debugger::stopChanged, this, [this] {
     if (const auto& stop = debugger_.stop())
       driver_->setText(QString::fromStdString(stop->facts.renderer + ", GLSL " + stop->facts.glsl_version));
+    check_->setCheck(debugger_.check());  // those of the stop before are gone
   });
   connect(&debugger_, &Debugger::valuesChanged, this, [this] { check_->setCheck(debugger_.check()); });
   for (const auto signal : {&Debugger::programChanged, &Debugger::placeChanged, &Debugger::runChanged})

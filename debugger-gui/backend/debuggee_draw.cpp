@@ -134,7 +134,7 @@ session::Check Debuggee::readAgain(const BufferView& view) {
     options.read_captures = false;
     session.execute(session.prepareOriginal(), options);
   } catch (const Error& error) {
-    if (error.outcome() != Outcome::cannot_debug) throw;
+    if (error.outcome() == Outcome::ended) throw;
     check.reason = error.what();
     return check;
   }

@@ -88,7 +88,7 @@ void Debuggee::lookAhead(const std::vector<std::string>& watches) {
         if (!entry.large) names.push_back(entry.name);
     }
     lookFrom(at, names, nullptr);
-  } catch (const session::Error&) {
+  } catch (const std::exception&) {
     // Then it is no different when the step is taken.
   }
   at.moveTo(here);
