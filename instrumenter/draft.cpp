@@ -83,6 +83,20 @@ void Draft::append(std::string_view text) {
   definitions_.append(text).append("\n");
 }
 
+namespace {
+
+// Mesa takes `#pragma STDGL invariant(all)` for a declaration, behind which no extension may be named.
+TokenIndex placeForExtensions(const frontend::Shader& shader) {
+  const auto isPragma = [](const Token& token) {
+    return token.kind == TokenKind::directive && token.text.find("pragma") != std::string::npos;
+  };
+  TokenIndex at = shader.first_declaration;
+  while (at > 0 && isPragma(shader.tokens[static_cast<std::size_t>(at) - 1])) --at;
+  return at;
+}
+
+}  // namespace
+
 Result<std::string> Draft::finish() {
   const auto count = static_cast<TokenIndex>(shader_.tokens.size());
   auto applied = edits.apply(TokenRange{0, count - 1});
@@ -95,14 +109,16 @@ Result<std::string> Draft::finish() {
 
   // Extensions after the user's own directives, which may switch them off; declarations after the extensions.
   // The leading directives are never edited, so the first declaration is still where it was.
-  std::vector<Token> added;
   const frontend::Place place;
-  for (const std::string& extension : extensions_)
-    added.push_back(Token{TokenKind::directive, "#extension " + extension + " : require", place, false});
   std::string declarations;
   for (const std::string& text : declarations_) declarations += "\n" + text;
-  if (!declarations.empty()) added.push_back(Token{TokenKind::identifier, declarations + "\n", place, false});
-  user.insert(user.begin() + shader_.first_declaration, added.begin(), added.end());
+  if (!declarations.empty())
+    user.insert(user.begin() + shader_.first_declaration,
+                Token{TokenKind::identifier, declarations + "\n", place, false});
+  std::vector<Token> added;
+  for (const std::string& extension : extensions_)
+    added.push_back(Token{TokenKind::directive, "#extension " + extension + " : require", place, false});
+  user.insert(user.begin() + placeForExtensions(shader_), added.begin(), added.end());
 
   if (!definitions_.empty()) {
     const std::string precision = es() ? "precision highp int;\nprecision highp float;\n" : "";

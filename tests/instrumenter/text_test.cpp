@@ -161,7 +161,8 @@ TEST(Discard, ListsTheThreadFirst) {
   const Shader shader = analysed(kHead + kDiscarding);
   const std::string text = single(shader, at(shader, 6));
   expectPart(text, "if (n > 1) sd_discard(); else color");
-  expectPart(text, "layout(std430) buffer sd_Discarded { int sd_ended, sd_listed, sd_started; uvec4 sd_list[]; };");
+  expectPart(text,
+             "layout(std430) buffer sd_Discarded { int sd_ended, sd_listed, sd_started; uvec4 sd_list[]; };");
   expectPart(text,
              "void sd_discard() { int sd_order = atomicAdd(sd_ended, 1); if (sd_order < sd_listed) {"
              "sd_list[sd_order * 2 + 0] = uvec4(uvec2(gl_FragCoord.xy), floatBitsToUint(gl_FragCoord.z), 1u);"
@@ -326,6 +327,18 @@ TEST(Names, AreFreshByLooking) {
       analysed(kHead + "int sd_words0 = 1, sd2_ = 2;\nvoid main() {\ncolor = vec4(sd_words0 + sd2_);\n}");
   expectPart(single(shader, at(shader, 7)),
              "sd3_words0 = uvec4(3u, 0u, 0u, 0u); color = vec4(sd_words0 + sd2_);");
+}
+
+// Mesa takes it for a declaration.
+TEST(Extensions, ComeBeforeAPragma) {
+  const Shader shader = analysed(
+      "#version 130\n#pragma STDGL invariant(all)\nout vec4 color;\nvoid main() {\n  color = "
+      "vec4(1.0);\n}\n");
+  const std::string text = single(shader, at(shader, 5));
+  const std::size_t extension = text.find("#extension GL_ARB_shader_bit_encoding : require\n");
+  const std::size_t pragma = text.find("#pragma STDGL invariant");
+  EXPECT_NE(pragma, std::string::npos) << text;
+  EXPECT_LT(extension, pragma) << text;
 }
 
 TEST(Extensions, ComeBehindTheUsersAndOnlyWhereNeeded) {
