@@ -10,6 +10,8 @@
 #include <functional>
 
 #include "session/emits.h"
+#include "session/plan.h"
+#include "session/window.h"
 #include "walk.h"
 
 namespace {
@@ -62,9 +64,14 @@ int vertexSteps(session::Session& session) {
     return 1;
   }
   const std::vector<std::string> names = bench::watchesAt(stepper, kWatched);
+  instrumenter::Probe probe = session::probeAt(stepper.shader(), stepper.position());
+  probe.watches = session::watchesAt(stepper.shader(), probe, names);
+  // The plan itself: a stepper would remember the place.
+  const auto plan = session::makePlan(session, session::Plan::window);
+  plan->expect(names);
   return measure(session, "step of the vertex stage", [&] {
-    stepper.moveTo(session::Position(stepper.position()));
-    const session::ThreadValues values = stepper.look(names);
+    session.select(session::Stage::vertex);
+    const session::ThreadValues values = plan->valuesAt(probe);
     std::size_t words = values.marks.size();
     for (const auto* list : {&values.identity, &values.values})
       for (const session::WatchedValues& one : *list) words += one.words.size();
