@@ -196,9 +196,12 @@ bool mayBeUndefined(const Shader& shader, VariableId id) {
 static bool agreeReduced(std::uint32_t one, std::uint32_t other) {
   constexpr float kUnit = 0x1p-10F;      // of mediump's least precision, relative
   constexpr float kSmallest = 0x1p-14F;  // below, units no longer shrink
+  constexpr float kLargest = 65504;      // above, there is nothing but infinity
   const float a = std::bit_cast<float>(one);
   const float b = std::bit_cast<float>(other);
   if (one == other || (std::isnan(a) && std::isnan(b))) return true;
+  if (std::isinf(a) || std::isinf(b))
+    return std::signbit(a) == std::signbit(b) && std::min(std::abs(a), std::abs(b)) > kLargest;
   return std::abs(a - b) <= 2 * kUnit * std::max({std::abs(a), std::abs(b), kSmallest});
 }
 
