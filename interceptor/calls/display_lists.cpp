@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <map>
-#include <mutex>
-#include <utility>
 
 #include "interceptor/calls/hooks.h"
+#include "interceptor/calls/list_parts.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/query.h"
 
@@ -24,44 +22,8 @@ struct Compiling {
   bool only = false;
   int pushed = 0;  // glPushAttrib without its glPopAttrib
   GLuint list = 0;
-  int begun = 0;  // glBegin without its glEnd; below 0: the other way round
 };
 constinit thread_local Compiling compiling;
-
-// Lists with one of glBegin and glEnd more than of the other, and how many, by share group and name. Never
-// destroyed: exit handlers of the program may still draw.
-struct Halves {
-  std::mutex mutex;
-  std::map<std::pair<std::uint64_t, GLuint>, int> begun;
-};
-Halves& halves() {
-  static auto* one = new Halves;
-  return *one;
-}
-constinit std::atomic<bool> have_halves{false};
-
-std::pair<std::uint64_t, GLuint> keyOf(GLuint name) {
-  const dispatch::Context* context = dispatch::currentContext();
-  return {context != nullptr ? context->share_group : 0, name};
-}
-
-int begunBy(GLuint name) {
-  if (!have_halves.load(std::memory_order_relaxed)) return 0;
-  const std::lock_guard lock(halves().mutex);
-  const auto found = halves().begun.find(keyOf(name));
-  return found == halves().begun.end() ? 0 : found->second;
-}
-
-void keepHalf(GLuint name, int begun) {
-  if (begun == 0 && !have_halves.load(std::memory_order_relaxed)) return;
-  const std::lock_guard lock(halves().mutex);
-  if (begun == 0) {
-    halves().begun.erase(keyOf(name));
-  } else {
-    halves().begun[keyOf(name)] = begun;
-    have_halves.store(true, std::memory_order_relaxed);
-  }
-}
 
 // Of any list of the process: they are shared, called by number, and made anew under the same number.
 constinit std::atomic<const char*> listed{nullptr};
@@ -97,52 +59,16 @@ void noteListed(const char* reason) {
 
 void after_glNewList(GLuint list, GLenum mode) {
   if (compilingList() || integer(GL_LIST_INDEX) == 0) return;  // refused
-  compiling = {dispatch::currentContext(), mode == GL_COMPILE, 0, list, 0};
+  compiling = {dispatch::currentContext(), mode == GL_COMPILE, 0, list};
+  beginParts();
   compilesLists = true;
 }
 
 void after_glEndList() {
   if (!compilingList()) return;
-  keepHalf(compiling.list, compiling.begun);
+  keepParts(compiling.list);
   compiling = {};
   compilesLists = false;
-}
-
-void after_glDeleteLists(GLuint list, GLsizei range) {
-  if (!have_halves.load(std::memory_order_relaxed)) return;
-  for (GLsizei i = 0; i < range; ++i) keepHalf(list + static_cast<GLuint>(i), 0);
-}
-
-void noteBegin() {
-  if (compilingList()) ++compiling.begun;
-}
-
-void noteEnd() {
-  if (compilingList()) --compiling.begun;
-}
-
-void before_glCallList(GLuint list) {
-  const int begun = begunBy(list);
-  if (begun == 0) return;
-  if (compilingList()) compiling.begun += begun;
-  if (!compilesOnly()) betweenBeginAndEnd = true;
-}
-
-void after_glCallList(GLuint list) {
-  const int begun = begunBy(list);
-  if (begun < 0 && !compilesOnly()) endBegun();
-}
-
-// Where some lists are halves, which of them it calls is not looked up: then it is told as no draw at all.
-static constinit thread_local bool between_before_lists = false;
-
-void before_glCallLists(GLsizei, GLenum, const void*) {
-  between_before_lists = betweenBeginAndEnd;
-  if (have_halves.load(std::memory_order_relaxed)) betweenBeginAndEnd = true;
-}
-
-void after_glCallLists(GLsizei, GLenum, const void*) {
-  betweenBeginAndEnd = between_before_lists;
 }
 
 void after_glPushAttrib(GLbitfield) {

@@ -15,11 +15,6 @@ bool compilingList();
 // The same, with GL_COMPILE: nothing is carried out.
 bool compilesOnly();
 
-// A glBegin or a glEnd goes into the list that is compiled, if one is: a list may hold one without the other.
-// Calls of such a list, and of lists between two of them, are parts of a draw, at which nothing may be asked.
-void noteBegin();
-void noteEnd();
-
 // Why calls of lists cannot be replayed in the current context, or "": what one of them holds cannot be put
 // back, or there is no room to keep it in.
 std::string listObstacle();

@@ -11,6 +11,7 @@
 
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
+#include "interceptor/calls/list_parts.h"
 #include "interceptor/calls/watch.h"
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"

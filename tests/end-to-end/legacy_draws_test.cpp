@@ -60,8 +60,27 @@ TEST(LegacyDraws, RefuseWhatOpenGlRefuses) {
   const Finished run = scratch.shadestep({"run", "--every-draw", "--json"},
                                          {binary("programs/between-begin-end"), "debugged"});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.json().at("debugged"), 23);
+  EXPECT_EQ(run.json().at("debugged"), 23);  // and one that a list begins
   EXPECT_EQ(readFile(scratch.file("bare")), readFile(scratch.file("debugged")));
+}
+
+// Which lists do so changes while the program runs: those that others call, and those that glCallLists calls.
+TEST(LegacyDraws, FollowListsThatBeginOrEndAPrimitive) {
+  const Scratch scratch;
+  const std::string program = binary("programs/list-halves");
+  EXPECT_EQ(scratch.run({program, "bare"}).status, 0);
+  const Finished run = scratch.shadestep({"run", "--every-draw", "--json"}, {program, "debugged"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(readFile(scratch.file("bare")), readFile(scratch.file("debugged")));
+  const Json frame = scratch.shadestep({"draws", "--json"}, {program}).json().at("frames").at(0);
+  std::vector<std::string> calls;
+  for (const Json& draw : frame.at("draws")) {
+    const bool whole = draw.at("stages").at("fragment").at("debuggable");
+    calls.push_back(draw.at("call").get<std::string>() + (whole ? "" : ", begins"));
+  }
+  EXPECT_EQ(calls, (std::vector<std::string>{"glCallList, begins", "glBegin", "glCallLists", "glBegin",
+                                             "glCallLists, begins", "glCallList", "glCallList", "glCallList",
+                                             "glCallList", "glBegin"}));
 }
 
 // Another thread draws between glBegin and glEnd: the draw that began first has the lower number, whether the
