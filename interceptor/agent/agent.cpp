@@ -104,6 +104,18 @@ bool waitsFor(const Number& number) {
   return !waits_for_begun.load(kRelaxed) && reached(number);
 }
 
+// The frame that ends, and how many draws it had. While the session waits, no draw may get its number between
+// the two.
+Number endFrame() {
+  std::unique_lock lock(numbering(), std::defer_lock);
+  if (armed.load(kRelaxed)) lock.lock();
+  std::uint64_t earlier = status.earlier_draws.load(), draws = 0;
+  do {
+    draws = status.draws();  // after `earlier`: no other thread's frame may end between the two
+  } while (!status.earlier_draws.compare_exchange_weak(earlier, draws));
+  return {status.frame.fetch_add(1, kRelaxed), draws - earlier};
+}
+
 // Whether a call makes no draw now: it is part of one, or is only compiled into a display list.
 bool drawsNothing() {
   return calls::betweenBeginAndEnd || (calls::compilesLists && calls::compilesOnly());
@@ -311,6 +323,10 @@ bool beginDraw() {
   return waits;
 }
 
+void forgetBegun() {
+  agent::waits_for_begun.store(false, agent::kRelaxed);
+}
+
 void stopAtBegun(const DrawCall& call) {
   const std::lock_guard lock(agent::numbering());
   agent::waits_for_begun.store(false, agent::kRelaxed);
@@ -319,12 +335,7 @@ void stopAtBegun(const DrawCall& call) {
 
 void onPresent() {
   agent::endFrameOfCalls();
-  std::uint64_t earlier = status.earlier_draws.load(), begun = 0;
-  do {
-    begun = status.draws();  // after `earlier`: no other thread's frame may end between the two
-  } while (!status.earlier_draws.compare_exchange_weak(earlier, begun));
-  const std::uint64_t draws = begun - earlier;
-  const std::uint64_t frame = status.frame.fetch_add(1, agent::kRelaxed);
+  const auto [frame, draws] = agent::endFrame();
   if (!agent::armed.load(agent::kRelaxed) || agent::waits_for_begun.load(agent::kRelaxed)) return;
   // The frame that was asked for is over: its draw was missed, or the session wants to hear of every frame.
   const std::uint64_t wanted = agent::stop_frame.load(agent::kRelaxed);
@@ -333,6 +344,7 @@ void onPresent() {
 
 void onContextCurrent() {
   agent::onLoad();
+  leaveBegun();
   if (dispatch::currentContext() != nullptr) status.used_gl.store(1, agent::kRelaxed);
 }
 

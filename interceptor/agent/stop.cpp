@@ -356,6 +356,7 @@ OrRefusal<wire::ExecutedT> Stop::cover(const replay::ProgramCopy& copy, const wi
     covering_.readOutput(static_cast<int>(i), bulk.data() + executed.outputs[i]->offset);
   }
   if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
+  if (guard::clearErrors()) return guard::internal("the driver refused to read the captured values back");
   return executed;
 }
 

@@ -39,13 +39,18 @@ void onDraw(const DrawCall& call);
 // session waits for this draw, no other stops until stopAtBegun with it, on the same thread.
 bool beginDraw();
 void stopAtBegun(const DrawCall& call);
+// This thread has left the draw's context, or ends: others stop again.
+void forgetBegun();
 
 // Whether this thread is between glBegin and glEnd, where nothing may be asked and no call is a draw of its
 // own.
 extern constinit thread_local bool betweenBeginAndEnd;
 
-// What glBegin began is at its end, by glEnd or by a list that holds it.
+// It is from now on, by glBegin or by a list that holds it; it is no longer, by glEnd likewise.
+void began();
 void endBegun();
+// This thread's context may be another one now.
+void leaveBegun();
 
 // Whether this thread compiles a display list; what then comes that makes calls of it impossible to replay.
 extern constinit thread_local bool compilesLists;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <utility>
 
 #include "interceptor/calls/display_lists.h"
 #include "interceptor/calls/hooks.h"
@@ -27,6 +28,20 @@ constinit thread_local GLuint list = 0;
 constinit thread_local GLenum list_mode = 0;
 
 constinit thread_local bool refused = false;  // a call since glBegin
+
+// Where the last glBegin was made, until its glEnd. A program that makes another context current in between
+// leaves this one so, and may come back.
+constinit thread_local const dispatch::Context* begun_in = nullptr;
+constinit thread_local GLuint left = 0;  // our list there
+
+// A thread may end, too: no draw may then wait for its glEnd.
+struct ThreadEnd {
+  ~ThreadEnd() {
+    if (list == 0) return;
+    holdWatching(false);
+    forgetBegun();
+  }
+};
 
 // The commands that may stand between glBegin and glEnd (OpenGL 4.6 compatibility, 10.7.5, and extensions).
 constexpr const char* kAllowed[] = {
@@ -111,6 +126,8 @@ bool records(GLenum mode) {
   if (!compilingList() && !refusesToBegin(mode)) {
     call.reason = obstacle();
     if (call.reason == nullptr) list = gl().GenLists(1);
+    thread_local const ThreadEnd end;
+    static_cast<void>(&end);
     if (list != 0) return true;
   }
   stopAtBegun(call);
@@ -136,7 +153,7 @@ void replace_glBegin(GLenum mode) {
     gl().NewList(list, GL_COMPILE);
   }
   gl().Begin(mode);
-  if (!compilesOnly()) betweenBeginAndEnd = mode <= GL_PATCHES;  // else refused
+  if (!compilesOnly() && mode <= GL_PATCHES) began();  // else refused
 }
 
 void replace_glEnd() {
@@ -145,8 +162,24 @@ void replace_glEnd() {
   if (!compilesOnly()) endBegun();
 }
 
+void began() {
+  betweenBeginAndEnd = true;
+  begun_in = dispatch::currentContext();
+}
+
+void leaveBegun() {
+  const bool back = begun_in != nullptr && begun_in == dispatch::currentContext();
+  if (begun_in == nullptr || back == betweenBeginAndEnd) return;
+  betweenBeginAndEnd = back;
+  std::swap(list, left);
+  if (list == left) return;  // none
+  holdWatching(back);
+  if (!back) forgetBegun();
+}
+
 void endBegun() {
   betweenBeginAndEnd = false;
+  begun_in = nullptr;
   if (list == 0) return;
   gl().EndList();
   holdWatching(false);

@@ -92,7 +92,7 @@ void enter(const char* call, const Parts& calls) {
           .replay = nullptr,
           .arguments = nullptr,
           .reason = "the draw cannot be replayed: the list begins a primitive that a later call ends"});
-  betweenBeginAndEnd = true;  // else the call is told again, as a draw of its own
+  began();  // else the call is told again, as a draw of its own
 }
 
 void leave() {

@@ -97,6 +97,18 @@ TEST(LegacyDraws, AreNumberedWhereTheyBeginAmongThreads) {
   }
 }
 
+// The draws after one that never ends, or that ends after others, are shown as ever.
+TEST(LegacyDraws, AreLeftByThreadsAndForOtherContexts) {
+  const Scratch scratch;
+  const std::string program = binary("programs/begin-left");
+  EXPECT_EQ(scratch.run({program, "bare"}).status, 0);
+  const Finished run = scratch.shadestep({"run", "--every-draw", "--json"}, {program, "debugged"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("draws"), 4);
+  EXPECT_EQ(run.json().at("debugged"), 2);
+  EXPECT_EQ(readFile(scratch.file("bare")), readFile(scratch.file("debugged")));
+}
+
 TEST(LegacyDraws, AreVerified) {
   const Scratch scratch;
   const Finished verified =

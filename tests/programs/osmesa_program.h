@@ -35,12 +35,17 @@ class OsmesaContext {
                                            major, OSMESA_CONTEXT_MINOR_VERSION, minor});
     attributes.push_back(0);
     context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-    if (!context_ || !OSMesaMakeCurrent(context_, colour_.data(), GL_UNSIGNED_BYTE, size, size))
-      fail("no OSMesa context");
+    if (!context_) fail("no OSMesa context");
+    makeCurrent();
   }
   ~OsmesaContext() { OSMesaDestroyContext(context_); }
   OsmesaContext(const OsmesaContext&) = delete;
   OsmesaContext& operator=(const OsmesaContext&) = delete;
+
+  void makeCurrent() {
+    if (!OSMesaMakeCurrent(context_, colour_.data(), GL_UNSIGNED_BYTE, size_, size_))
+      fail("no OSMesa context");
+  }
 
   // RGBA of a pixel of the default framebuffer, y upwards.
   std::array<int, 4> pixel(int x, int y) {
