@@ -160,6 +160,11 @@ Json toJson(const session::Check& check) {
   json["outputs"] = !check.compared_at_all ? "not compared" : check.identical() ? "identical" : "differ";
   json["compared"] = check.compared;
   json["differing"] = check.differing;
+  json["largest"] = check.largest ? Json{{"by", number(check.largest->by)},
+                                         {"expected", number(check.largest->expected)},
+                                         {"got", number(check.largest->got)},
+                                         {"in", check.largest->where}}
+                                  : Json(nullptr);
   json["undefined"] = check.undefined;
   json["reason"] = check.reason.empty() ? Json(nullptr) : Json(check.reason);
   json["left_out"] = check.left_out.empty() ? Json(nullptr) : Json(check.left_out);

@@ -56,6 +56,9 @@ void Check::merge(const Check& other) {
   compared_at_all = compared_at_all && other.compared_at_all;
   undefined = std::max(undefined, other.undefined);
   compared = std::max(compared, other.compared);
+  if (differing == 0 ||
+      (largest && other.differing > 0 && (!other.largest || other.largest->by > largest->by)))
+    largest = other.largest;
   differing = std::max(differing, other.differing);
   if (left_out.empty()) left_out = other.left_out;
   if (dropped.empty()) dropped = other.dropped;
@@ -176,6 +179,9 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   result.check.compared_at_all = options.compare && reply.compare_reason.empty();
   result.check.compared = reply.compared;
   result.check.differing = reply.differing;
+  if (reply.largest)
+    result.check.largest = {reply.largest->by, reply.largest->expected, reply.largest->got,
+                            reply.largest->where};
   result.check.reason = options.compare ? reply.compare_reason : "not asked for";
   if (options.compare && reply.compare_reason == wire::kNothingToCompare && !prepared.uncompared.empty())
     result.check.reason = prepared.uncompared;
@@ -206,6 +212,7 @@ void Session::leaveOutUndefined(const Prepared& prepared, const ExecuteOptions& 
   check.compared_at_all = true;
   check.reason.clear();
   check.differing = differing;
+  check.largest.reset();
   check.undefined = std::min(check.compared + unstable, undefined.count);
   check.compared = check.compared + unstable - check.undefined;
 }

@@ -110,10 +110,17 @@ struct DrawFacts {
 
 // design point 9: the original outputs of an instrumented replay against the uninstrumented draw, bitwise.
 struct Check {
+  // Of the components that differ the one that differs most.
+  struct Largest {
+    double by = 0;  // at least 0; infinite where one of the two is not finite
+    double expected = 0, got = 0;
+    std::string where;  // "draw buffer 0"
+  };
   bool compared_at_all = false;
   std::uint64_t compared = 0;  // components
   std::uint64_t differing = 0;
-  std::string reason;  // why not compared
+  std::optional<Largest> largest;  // none: nothing differs, or something that is not known to be numbers
+  std::string reason;              // why not compared
   std::uint64_t undefined =
       0;  // components not counted above: the shader leaves them undefined (it writes no value)
   // Which threads of the draw the values do not cover, or which outputs are not compared ("" = none), for the

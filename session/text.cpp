@@ -6,6 +6,15 @@
 #include "session/values.h"
 
 namespace shadestep::session {
+namespace {
+
+std::string digits(double value, int count) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", count, value);
+  return text;
+}
+
+}  // namespace
 
 std::string describe(const Check& check) {
   std::string left_out = check.left_out.empty() ? "" : "\nnote: " + check.left_out;
@@ -20,7 +29,15 @@ std::string describe(const Check& check) {
            left_out;
   }
   return "OUTPUTS DIFFER from the uninstrumented draw in " + withThousands(check.differing) + " of " +
-         withThousands(check.compared) + " components: do not trust these values" + left_out;
+         withThousands(check.compared) + " components" + largestDifference(check) +
+         ": do not trust these values" + left_out;
+}
+
+std::string largestDifference(const Check& check) {
+  if (!check.largest) return "";
+  const Check::Largest& largest = *check.largest;
+  return ", by at most " + digits(largest.by, 3) + " (" + largest.where + ": " + digits(largest.got, 9) +
+         " instead of " + digits(largest.expected, 9) + ")";
 }
 
 std::string withThousands(std::uint64_t value) {

@@ -12,6 +12,9 @@ namespace shadestep::session {
 // "outputs identical to the uninstrumented draw (1,024 components)", and below it what the check leaves out.
 std::string describe(const Check&);
 
+// ", by at most 5.96e-08 (draw buffer 0: 0.707106769 instead of 0.707106829)"; "" where that is not known.
+std::string largestDifference(const Check&);
+
 std::string withThousands(std::uint64_t value);  // "1,048,576"
 
 // "GL_TRIANGLES"; the number in hexadecimal if it is no primitive mode.

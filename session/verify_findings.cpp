@@ -1,5 +1,7 @@
 #include "session/verify_findings.h"
 
+#include "session/text.h"
+
 namespace shadestep::session {
 
 void Findings::fail(VerifyFailure::Kind kind, const frontend::Statement* at, const std::string& plan,
@@ -22,7 +24,7 @@ bool Findings::checkOutputs(const frontend::Statement* at, const std::string& pl
   if (!check.compared_at_all || check.differing == 0) return true;
   fail(VerifyFailure::Kind::output, at, plan, "",
        std::to_string(check.differing) + " of " + std::to_string(check.compared) +
-           " components differ from the uninstrumented draw");
+           " components differ from the uninstrumented draw" + largestDifference(check));
   return false;
 }
 

@@ -35,6 +35,7 @@ void CheckBadge::setCheck(const std::optional<session::Check>& check) {
       text = tr("%1 of %2 differ")
                  .arg(QString::fromStdString(session::withThousands(check->differing)),
                       QString::fromStdString(session::withThousands(check->compared)));
+      if (check->largest) text += tr(" by up to %1").arg(check->largest->by, 0, 'g', 2);
       color = theme().bad;
     }
     if (!check->left_out.empty()) text += " *";

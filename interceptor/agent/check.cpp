@@ -9,11 +9,13 @@
 namespace shadestep::agent {
 namespace {
 
+using guard::Difference;
 using guard::Refusal;
 using guard::Section;
 
-bool any(const std::vector<std::uint64_t>& counts) {
-  return std::any_of(counts.begin(), counts.end(), [](std::uint64_t count) { return count != 0; });
+bool any(const std::vector<Difference>& differences) {
+  return std::any_of(differences.begin(), differences.end(),
+                     [](const Difference& difference) { return difference.components != 0; });
 }
 
 std::size_t roomFor(const std::vector<Section>& sections) {
@@ -47,10 +49,10 @@ Refusal DrawTraces::read(std::byte* destination) {
 }
 
 Refusal DrawTraces::differences(const std::byte* before, ScratchMemory& scratch,
-                                std::vector<std::uint64_t>& counts) {
+                                std::vector<Difference>& found) {
   const std::vector<Section> sections = this->sections();
   Refusal refusal = readInto(sections, scratch, [&](std::byte* memory) { return read(memory); });
-  if (refusal.text.empty()) counts = guard::differences(sections, before, scratch.data());
+  if (refusal.text.empty()) found = guard::differences(sections, before, scratch.data());
   return refusal;
 }
 
@@ -70,10 +72,10 @@ Refusal StageTraces::read(std::byte* destination) {
 }
 
 Refusal StageTraces::differences(const std::byte* before, ScratchMemory& scratch,
-                                 std::vector<std::uint64_t>& counts) {
-  counts.clear();
+                                 std::vector<Difference>& found) {
+  found.clear();
   const std::uint64_t words = feedback_.outputWords();
-  if (words > 0) counts.push_back(feedback_.differingOutputs(before));
+  if (words > 0) found.push_back(feedback_.outputDifference(before));
   const std::vector<Section> sections = memory_.sections();
   if (sections.empty()) return {};
   Refusal refusal = readInto(sections, scratch, [&](std::byte* memory) {
@@ -81,8 +83,8 @@ Refusal StageTraces::differences(const std::byte* before, ScratchMemory& scratch
     return memory_.read(memory);
   });
   if (!refusal.text.empty()) return refusal;
-  for (const std::uint64_t count : guard::differences(sections, before + words * 4, scratch.data()))
-    counts.push_back(count);
+  for (const Difference& difference : guard::differences(sections, before + words * 4, scratch.data()))
+    found.push_back(difference);
   return {};
 }
 
@@ -101,7 +103,7 @@ Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& exec
   };
   const std::vector<Section> sections = traces.sections();
   if (roomFor(sections) != reference_.size()) return other_inputs();
-  std::vector<std::uint64_t> differing, unstable(sections.size(), 0);
+  std::vector<Difference> differing, unstable(sections.size());
   if (Refusal refusal = traces.differences(reference_.data(), scratch_, differing); !refusal.text.empty())
     return refusal;
   if (any(differing)) {
@@ -112,17 +114,27 @@ Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& exec
   }
 
   std::string names;
+  bool told = true;
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    if (unstable[i] != 0) {
+    if (unstable[i].components != 0) {
       names += (names.empty() ? "" : ", ") + sections[i].name;
       executed.unstable += sections[i].components;
       if (!sections[i].color) executed.outside_colors += sections[i].components;
       continue;
     }
     executed.compared += sections[i].components;
-    executed.differing += differing[i];
-    if (!sections[i].color) executed.outside_colors += differing[i];
+    executed.differing += differing[i].components;
+    if (!sections[i].color) executed.outside_colors += differing[i].components;
+    told = told && differing[i].told;
+    if (differing[i].by > (executed.largest ? executed.largest->by : -1.0)) {
+      executed.largest = std::make_unique<wire::LargestDifferenceT>();
+      executed.largest->by = differing[i].by;
+      executed.largest->expected = differing[i].before;
+      executed.largest->got = differing[i].now;
+      executed.largest->where = sections[i].name;
+    }
   }
+  if (!told) executed.largest.reset();
   if (!names.empty() && executed.differing == 0) {
     executed.compare_reason = "two draws of the program's own shader differ from each other in " + names +
                               ": an open order of writes, a clock or uninitialised variables; the other " +

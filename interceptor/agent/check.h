@@ -25,10 +25,9 @@ class Traces {
  public:
   virtual std::vector<guard::Section> sections() const = 0;
   virtual guard::Refusal read(std::byte*) = 0;
-  // How many components of each section are others than those that were read before. `scratch` keeps its
-  // pages.
+  // What of each section is other than it was when it was read before. `scratch` keeps its pages.
   virtual guard::Refusal differences(const std::byte* before, ScratchMemory& scratch,
-                                     std::vector<std::uint64_t>& counts) = 0;
+                                     std::vector<guard::Difference>&) = 0;
 
  protected:
   ~Traces() = default;
@@ -43,7 +42,7 @@ class DrawTraces final : public Traces {
   std::vector<guard::Section> sections() const override;
   guard::Refusal read(std::byte*) override;
   guard::Refusal differences(const std::byte* before, ScratchMemory& scratch,
-                             std::vector<std::uint64_t>& counts) override;
+                             std::vector<guard::Difference>&) override;
 
  private:
   const guard::ContextFacts& facts_;
@@ -61,7 +60,7 @@ class StageTraces final : public Traces {
   std::vector<guard::Section> sections() const override;
   guard::Refusal read(std::byte*) override;
   guard::Refusal differences(const std::byte* before, ScratchMemory& scratch,
-                             std::vector<std::uint64_t>& counts) override;
+                             std::vector<guard::Difference>&) override;
 
  private:
   const guard::ContextFacts& facts_;

@@ -91,7 +91,7 @@ OrRefusal<wire::ExecutedT> StageReplay::replay(const replay::ProgramCopy& copy,
   const bool whole = request.read_outputs;
   executed.feedback = layout.add((whole ? feedback_.words() : feedback_.captureWords()) * 4);
   executed.feedback_words =
-      static_cast<std::uint32_t>(whole ? stages.feedback.words() : stages.feedback.capture_words);
+      static_cast<std::uint32_t>(whole ? stages.feedback.words(0) : stages.feedback.capture_words);
   if (!layout.create(bulk)) return noMemory();
   if (executed.storage->bytes > 0) storage_.read(bulk.data() + executed.storage->offset);
   if (executed.feedback->bytes > 0) {

@@ -8,7 +8,6 @@
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
-#include "interceptor/guard/section.h"
 
 namespace shadestep::capture {
 namespace {
@@ -45,7 +44,8 @@ std::uint64_t result(GLuint query) {
 }  // namespace
 
 bool FeedbackLayout::empty() const {
-  return words() == 0 && std::all_of(more.begin(), more.end(), [](int words) { return words == 0; });
+  return capture_words == 0 &&
+         std::all_of(outputs.begin(), outputs.end(), [](const auto& words) { return words.empty(); });
 }
 
 Feedback::~Feedback() {
@@ -124,10 +124,6 @@ void Feedback::leaveMode(GLenum mode) const {
   gl().EndTransformFeedback();
 }
 
-int Feedback::outputs(std::size_t buffer) const {
-  return buffer == 0 ? layout_.output_words : layout_.more[buffer - 1];
-}
-
 std::uint64_t Feedback::words(std::size_t buffer) const {
   return buffer < records_.size() ? records_[buffer] * static_cast<std::uint64_t>(layout_.words(buffer)) : 0;
 }
@@ -139,7 +135,7 @@ std::uint64_t Feedback::captureWords() const {
 std::uint64_t Feedback::outputWords() const {
   std::uint64_t words = 0;
   for (std::size_t i = 0; i < records_.size(); ++i)
-    words += records_[i] * static_cast<std::uint64_t>(outputs(i));
+    words += records_[i] * static_cast<std::uint64_t>(layout_.outputWords(i));
   return words;
 }
 
@@ -147,7 +143,7 @@ std::uint64_t Feedback::differing(const Records& some, const Records& others) co
   std::uint64_t words = 0;
   for (std::size_t i = 0; i < std::min(some.size(), others.size()); ++i)
     words += (std::max(some[i], others[i]) - std::min(some[i], others[i])) *
-             static_cast<std::uint64_t>(std::max(outputs(i), 1));
+             static_cast<std::uint64_t>(std::max(layout_.outputWords(i), 1));
   return words;
 }
 
@@ -169,7 +165,7 @@ void Feedback::readRecords(std::byte* destination) const {
 }
 
 void Feedback::readCaptures(std::byte* destination) const {
-  const auto stride = static_cast<std::size_t>(layout_.words()) * 4;
+  const auto stride = static_cast<std::size_t>(layout_.words(0)) * 4;
   const auto bytes = static_cast<std::size_t>(layout_.capture_words) * 4;
   mapped(0,
          [&](const std::byte* memory) { copyEach(destination, bytes, memory, stride, bytes, records_[0]); });
@@ -178,7 +174,7 @@ void Feedback::readCaptures(std::byte* destination) const {
 void Feedback::readOutputs(std::byte* destination) const {
   for (std::size_t b = 0; b < records_.size(); ++b) {
     const auto stride = static_cast<std::size_t>(layout_.words(b)) * 4;
-    const auto bytes = static_cast<std::size_t>(outputs(b)) * 4;
+    const auto bytes = static_cast<std::size_t>(layout_.outputWords(b)) * 4;
     mapped(b, [&](const std::byte* memory) {
       copyEach(destination, bytes, memory + (stride - bytes), stride, bytes, records_[b]);
     });
@@ -187,25 +183,32 @@ void Feedback::readOutputs(std::byte* destination) const {
 }
 
 // What cannot be looked at proves nothing: it counts as other.
-std::uint64_t Feedback::differingOutputs(const std::byte* before) const {
-  std::uint64_t count = 0;
+guard::Difference Feedback::outputDifference(const std::byte* before) const {
+  guard::Difference result;
   for (std::size_t b = 0; b < records_.size(); ++b) {
     const auto stride = static_cast<std::size_t>(layout_.words(b)) * 4;
-    const auto bytes = static_cast<std::size_t>(outputs(b)) * 4;
+    const auto bytes = static_cast<std::size_t>(layout_.outputWords(b)) * 4;
+    const std::vector<guard::Number>& numbers = layout_.outputs[b];
     const bool seen = mapped(b, [&](const std::byte* memory) {
       if (stride == bytes) {
-        count += guard::differing(before, memory, records_[b] * bytes, 4);
+        result.add(guard::difference(numbers, before, memory, records_[b] * bytes, 4));
         return;
       }
       const std::byte* now = memory + (stride - bytes);
       for (std::uint64_t i = 0; i < records_[b]; ++i)
-        for (std::size_t at = 0; at < bytes; at += 4)
-          count += word(before + i * bytes + at) != word(now + i * stride + at) ? 1 : 0;
+        for (std::size_t at = 0; at < bytes; at += 4) {
+          const std::byte* expected = before + i * bytes + at;
+          const std::byte* got = now + i * stride + at;
+          if (word(expected) != word(got)) result.note(numbers[at / 4], expected, got);
+        }
     });
-    if (!seen) count += records_[b] * bytes / 4;
+    if (!seen) {
+      result.components += records_[b] * bytes / 4;
+      result.told = false;
+    }
     before += records_[b] * bytes;
   }
-  return count;
+  return result;
 }
 
 }  // namespace shadestep::capture

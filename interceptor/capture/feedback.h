@@ -11,6 +11,7 @@
 #include "interceptor/guard/context_facts.h"
 #include "interceptor/guard/guards.h"
 #include "interceptor/guard/refusal.h"
+#include "interceptor/guard/section.h"
 #include "interceptor/registry/gl_enums.h"
 #include "interceptor/registry/gl_types.h"
 
@@ -20,13 +21,13 @@ namespace shadestep::capture {
 // first has captures.
 struct FeedbackLayout {
   GLenum mode = GL_POINTS;  // or GL_LINES, GL_TRIANGLES
-  int capture_words = 0;    // of a record: captures first
-  int output_words = 0;     // then original outputs
-  std::vector<int> more;    // words of a record of each further stream, all of them original outputs
-  bool holes = false;       // there are words among them that nothing is written to
-  int words() const { return capture_words + output_words; }
-  std::size_t buffers() const { return 1 + more.size(); }
-  int words(std::size_t buffer) const { return buffer == 0 ? words() : more[buffer - 1]; }
+  int capture_words = 0;    // of a record of the first buffer: captures first
+  std::vector<std::vector<guard::Number>> outputs =
+      std::vector<std::vector<guard::Number>>(1);  // of each buffer: what the words of a record are ...
+  bool holes = false;  // ... and whether there are some that nothing is written to
+  std::size_t buffers() const { return outputs.size(); }
+  int outputWords(std::size_t buffer) const { return static_cast<int>(outputs[buffer].size()); }
+  int words(std::size_t buffer) const { return (buffer == 0 ? capture_words : 0) + outputWords(buffer); }
   bool empty() const;
 };
 
@@ -66,8 +67,8 @@ class Feedback {
   void readCaptures(std::byte* words) const;
   void readRecords(std::byte* words) const;
   void readOutputs(std::byte* words) const;
-  // How many words of the outputs are others than those that were read before.
-  std::uint64_t differingOutputs(const std::byte* before) const;
+  // What of the outputs is other than it was when they were read before.
+  guard::Difference outputDifference(const std::byte* before) const;
 
  private:
   struct Buffer {
@@ -75,7 +76,6 @@ class Feedback {
     std::uint64_t room = 0;  // words
   };
   guard::Refusal makeRoom(std::size_t buffer);
-  int outputs(std::size_t buffer) const;  // words of a record
   std::uint64_t words(std::size_t buffer) const;
   template <class Use>
   bool mapped(std::size_t buffer, Use) const;

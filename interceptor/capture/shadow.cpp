@@ -45,6 +45,12 @@ void readPixels(const DrawTarget& target, GLenum format, GLenum type, std::size_
   }
 }
 
+// As readOutput gives it.
+guard::Number numberOf(const Format& format) {
+  if (!format.integer()) return guard::Number::real;
+  return format.type == GL_INT ? guard::Number::signed_integer : guard::Number::unsigned_integer;
+}
+
 }  // namespace
 
 Shadow::Shadow(const guard::ContextFacts& facts, const DrawTarget& target)
@@ -327,10 +333,22 @@ std::vector<guard::Section> Shadow::sections() const {
   std::vector<guard::Section> result;
   for (const ColorBuffer& color : target_.colors) {
     // Components that the format lacks read as constants: they never differ, and are not counted.
-    result.push_back({"draw buffer " + std::to_string(color.draw_buffer), texels * 16, 4,
-                      texels * static_cast<std::size_t>(color.format.components()), true});
+    result.push_back({"draw buffer " + std::to_string(color.draw_buffer),
+                      texels * 16,
+                      4,
+                      texels * static_cast<std::size_t>(color.format.components()),
+                      true,
+                      {numberOf(color.format)}});
   }
-  if (readsDepth()) result.push_back({"the depth buffer", texels * 4, 4, texels});
+  if (readsDepth()) {
+    const bool real = target_.samples > 0 || target_.depth_stencil.depth_float;
+    result.push_back({"the depth buffer",
+                      texels * 4,
+                      4,
+                      texels,
+                      false,
+                      {real ? guard::Number::real : guard::Number::fraction}});
+  }
   if (readsStencil()) result.push_back({"the stencil buffer", texels, 1, texels});
   return result;
 }

@@ -3,6 +3,7 @@
 #include "interceptor/replay/stages.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
@@ -12,66 +13,68 @@ namespace {
 
 using dispatch::gl;
 
-// 32-bit words of one value that transform feedback writes.
-int wordsOf(GLenum type) {
-  switch (type) {
-    case GL_FLOAT:
-    case GL_INT:
-    case GL_UNSIGNED_INT:
-    case GL_NONE:  // of gl_SkipComponentsN, whose size is N
-      return 1;
-    case GL_FLOAT_VEC2:
-    case GL_INT_VEC2:
-    case GL_UNSIGNED_INT_VEC2:
-    case GL_DOUBLE:
-    case GL_INT64_ARB:
-    case GL_UNSIGNED_INT64_ARB:
-      return 2;
-    case GL_FLOAT_VEC3:
-    case GL_INT_VEC3:
-    case GL_UNSIGNED_INT_VEC3:
-      return 3;
-    case GL_FLOAT_VEC4:
-    case GL_INT_VEC4:
-    case GL_UNSIGNED_INT_VEC4:
-    case GL_FLOAT_MAT2:
-    case GL_DOUBLE_VEC2:
-    case GL_INT64_VEC2_ARB:
-    case GL_UNSIGNED_INT64_VEC2_ARB:
-      return 4;
-    case GL_FLOAT_MAT2x3:
-    case GL_FLOAT_MAT3x2:
-    case GL_DOUBLE_VEC3:
-    case GL_INT64_VEC3_ARB:
-    case GL_UNSIGNED_INT64_VEC3_ARB:
-      return 6;
-    case GL_FLOAT_MAT2x4:
-    case GL_FLOAT_MAT4x2:
-    case GL_DOUBLE_VEC4:
-    case GL_INT64_VEC4_ARB:
-    case GL_UNSIGNED_INT64_VEC4_ARB:
-    case GL_DOUBLE_MAT2:
-      return 8;
-    case GL_FLOAT_MAT3:
-      return 9;
-    case GL_FLOAT_MAT3x4:
-    case GL_FLOAT_MAT4x3:
-    case GL_DOUBLE_MAT2x3:
-    case GL_DOUBLE_MAT3x2:
-      return 12;
-    case GL_FLOAT_MAT4:
-    case GL_DOUBLE_MAT2x4:
-    case GL_DOUBLE_MAT4x2:
-      return 16;
-    case GL_DOUBLE_MAT3:
-      return 18;
-    case GL_DOUBLE_MAT3x4:
-    case GL_DOUBLE_MAT4x3:
-      return 24;
-    case GL_DOUBLE_MAT4:
-      return 32;
-    default:
-      return 0;
+// A type of what transform feedback writes, by its components.
+struct FeedbackType {
+  GLenum type;
+  guard::Number component;
+  int components;
+};
+
+using guard::Number;
+constexpr FeedbackType kFeedbackTypes[] = {
+    {GL_NONE, Number::unknown, 1},  // of gl_SkipComponentsN, whose size is N
+    {GL_FLOAT, Number::real, 1},
+    {GL_FLOAT_VEC2, Number::real, 2},
+    {GL_FLOAT_VEC3, Number::real, 3},
+    {GL_FLOAT_VEC4, Number::real, 4},
+    {GL_FLOAT_MAT2, Number::real, 4},
+    {GL_FLOAT_MAT2x3, Number::real, 6},
+    {GL_FLOAT_MAT2x4, Number::real, 8},
+    {GL_FLOAT_MAT3x2, Number::real, 6},
+    {GL_FLOAT_MAT3, Number::real, 9},
+    {GL_FLOAT_MAT3x4, Number::real, 12},
+    {GL_FLOAT_MAT4x2, Number::real, 8},
+    {GL_FLOAT_MAT4x3, Number::real, 12},
+    {GL_FLOAT_MAT4, Number::real, 16},
+    {GL_INT, Number::signed_integer, 1},
+    {GL_INT_VEC2, Number::signed_integer, 2},
+    {GL_INT_VEC3, Number::signed_integer, 3},
+    {GL_INT_VEC4, Number::signed_integer, 4},
+    {GL_UNSIGNED_INT, Number::unsigned_integer, 1},
+    {GL_UNSIGNED_INT_VEC2, Number::unsigned_integer, 2},
+    {GL_UNSIGNED_INT_VEC3, Number::unsigned_integer, 3},
+    {GL_UNSIGNED_INT_VEC4, Number::unsigned_integer, 4},
+    {GL_INT64_ARB, Number::unknown, 2},
+    {GL_INT64_VEC2_ARB, Number::unknown, 4},
+    {GL_INT64_VEC3_ARB, Number::unknown, 6},
+    {GL_INT64_VEC4_ARB, Number::unknown, 8},
+    {GL_UNSIGNED_INT64_ARB, Number::unknown, 2},
+    {GL_UNSIGNED_INT64_VEC2_ARB, Number::unknown, 4},
+    {GL_UNSIGNED_INT64_VEC3_ARB, Number::unknown, 6},
+    {GL_UNSIGNED_INT64_VEC4_ARB, Number::unknown, 8},
+    {GL_DOUBLE, Number::double_real, 1},
+    {GL_DOUBLE_VEC2, Number::double_real, 2},
+    {GL_DOUBLE_VEC3, Number::double_real, 3},
+    {GL_DOUBLE_VEC4, Number::double_real, 4},
+    {GL_DOUBLE_MAT2, Number::double_real, 4},
+    {GL_DOUBLE_MAT2x3, Number::double_real, 6},
+    {GL_DOUBLE_MAT2x4, Number::double_real, 8},
+    {GL_DOUBLE_MAT3x2, Number::double_real, 6},
+    {GL_DOUBLE_MAT3, Number::double_real, 9},
+    {GL_DOUBLE_MAT3x4, Number::double_real, 12},
+    {GL_DOUBLE_MAT4x2, Number::double_real, 8},
+    {GL_DOUBLE_MAT4x3, Number::double_real, 12},
+    {GL_DOUBLE_MAT4, Number::double_real, 16},
+};
+
+// The 32-bit words of `size` values of a type.
+void appendWords(GLenum type, GLint size, std::vector<Number>& words) {
+  const auto* found = std::find_if(std::begin(kFeedbackTypes), std::end(kFeedbackTypes),
+                                   [&](const FeedbackType& known) { return known.type == type; });
+  if (found == std::end(kFeedbackTypes)) return;
+  for (int i = 0; i < size * found->components; ++i) {
+    words.push_back(found->component);
+    if (found->component == Number::double_real) words.push_back(Number::second_word);
   }
 }
 
@@ -211,21 +214,20 @@ capture::FeedbackLayout feedbackLayout(GLuint program, const wire::PrepareT& req
   GLint longest = 0;
   gl().GetProgramiv(program, GL_TRANSFORM_FEEDBACK_VARYING_MAX_LENGTH, &longest);
   std::string name(static_cast<std::size_t>(std::max(longest, 1)), '\0');
+  std::vector<Number> captured;
   for (GLuint i = 0; i < count; ++i) {
     GLsizei size = 0;
     GLenum type = 0;
     gl().GetTransformFeedbackVarying(program, i, static_cast<GLsizei>(name.size()), nullptr, &size, &type,
                                      name.data());
     if (type == GL_NONE && name.starts_with("gl_NextBuffer")) {
-      layout.more.push_back(0);
+      layout.outputs.emplace_back();
       continue;
     }
     layout.holes |= type == GL_NONE;
-    if (!layout.more.empty())
-      layout.more.back() += size * wordsOf(type);
-    else
-      (i < captures ? layout.capture_words : layout.output_words) += size * wordsOf(type);
+    appendWords(type, size, i < captures ? captured : layout.outputs.back());
   }
+  layout.capture_words = static_cast<int>(captured.size());
   return layout;
 }
 

@@ -1,5 +1,6 @@
 // The agent in situations where it must refuse with a reason, or take special care (agent_situation.cpp).
 #include <algorithm>
+#include <cmath>
 
 #include "agent_session.h"
 
@@ -34,14 +35,17 @@ TEST(Situations, goWellWithoutADebugger) {
   }
 }
 
-std::string fragmentText(const wire::DrawT& draw) {
+std::string textOf(const wire::DrawT& draw, wire::Stage wanted) {
+  std::string text;
   for (const auto& stage : draw.stages) {
-    if (stage->stage != wire::Stage::Fragment) continue;
-    std::string text;
+    if (stage->stage != wanted) continue;
     for (const auto& string : stage->sources) text += string->text;
-    return text;
   }
-  return "";
+  return text;
+}
+
+std::string fragmentText(const wire::DrawT& draw) {
+  return textOf(draw, wire::Stage::Fragment);
 }
 
 std::string inserted(std::string text, const std::string& before, const std::string& what) {
@@ -159,27 +163,38 @@ TEST(Situations, drawsWhoseConditionHoldsAreReplayed) {
   end(session);
 }
 
+// The geometry stage of the situation "emits", with `emit` in place of its EmitVertex().
+wire::ExecutedT emitting(const std::string& emit) {
+  Session session(SITUATION, "emits", "");
+  session.resumeTo(0, 0);
+  EXPECT_NE(session.receive(), nullptr);
+  wire::PrepareT prepare;
+  prepare.stage = wire::Stage::Geometry;
+  prepare.geometry = wire::Geometry::Unrasterized;
+  prepare.feedback_outputs = {"gl_Position"};
+  prepare.text = textOf(session.describe(), wire::Stage::Geometry);
+  prepare.text.replace(prepare.text.find("EmitVertex()"), 12, emit);
+  wire::ExecuteT execute;
+  execute.handle = session.prepare(prepare);
+  execute.compare = true;
+  wire::ExecutedT executed = session.execute(execute);
+  end(session);
+  return executed;
+}
+
 // What a shorter draw leaves behind its last vertex are the vertices of the draw before.
 TEST(Situations, aShaderThatEmitsLessDiffers) {
-  for (const bool less : {false, true}) {
-    Session session(SITUATION, "emits", "");
-    session.resumeTo(0, 0);
-    ASSERT_NE(session.receive(), nullptr);
-    const wire::DrawT draw = session.describe();
-    wire::PrepareT prepare;
-    prepare.stage = wire::Stage::Geometry;
-    prepare.geometry = wire::Geometry::Unrasterized;
-    prepare.feedback_outputs = {"gl_Position"};
-    for (const auto& stage : draw.stages)
-      if (stage->stage == wire::Stage::Geometry)
-        for (const auto& string : stage->sources) prepare.text += string->text;
-    if (less) prepare.text.replace(prepare.text.find("EmitVertex()"), 12, "if (i < 0) EmitVertex()");
-    wire::ExecuteT execute;
-    execute.handle = session.prepare(prepare);
-    execute.compare = true;
-    EXPECT_EQ(session.execute(execute).differing > 0, less);
-    end(session);
-  }
+  EXPECT_EQ(emitting("EmitVertex()").differing, 0U);
+  EXPECT_GT(emitting("if (i < 0) EmitVertex()").differing, 0U);
+}
+
+TEST(Situations, theCheckSaysByHowMuchAStagesOutputsDiffer) {
+  const wire::ExecutedT executed = emitting("gl_Position.y = 64.0, EmitVertex()");
+  EXPECT_GT(executed.differing, 0U);
+  ASSERT_NE(executed.largest, nullptr);
+  EXPECT_EQ(executed.largest->where, "the outputs of the geometry stage");
+  EXPECT_EQ(executed.largest->got, 64.0);
+  EXPECT_EQ(executed.largest->by, std::abs(64.0 - executed.largest->expected));
 }
 
 TEST(Situations, displayListsAreReplayed) {
@@ -330,6 +345,7 @@ TEST(Memory, isComparedWithWhatTheProgramsOwnDrawLeaves) {
     const wire::ExecutedT executed = executeText(session, inserted(text, "color = ", statement));
     EXPECT_EQ(executed.compare_reason, "");
     EXPECT_EQ(executed.compared, kCompared);
+    EXPECT_EQ(executed.largest, nullptr) << "nobody says what a buffer's bytes are";
     return executed.differing;
   };
   EXPECT_EQ(differing("cells[place.y * 48 + place.x] = uint(place.x < 2); "), kPixels);

@@ -1,4 +1,6 @@
 // The agent, asked by a session that knows what the scenes' shaders compute (agent_scene.h).
+#include <cmath>
+
 #include "agent_session.h"
 
 namespace agent_test {
@@ -243,6 +245,9 @@ TEST_P(AgentInScene, findsOutWhenAnOutputDiffers) {
   const wire::ExecutedT executed = session->execute(request);
   EXPECT_EQ(executed.compared, std::uint64_t{kWidth} * kHeight * 6);
   EXPECT_EQ(executed.differing, old() ? 4U : 1U);
+  ASSERT_NE(executed.largest, nullptr);
+  EXPECT_GT(executed.largest->by, 0.0);
+  EXPECT_EQ(executed.largest->by, std::abs(executed.largest->got - executed.largest->expected));
   finishUntouched(*session);
 }
 
