@@ -295,14 +295,29 @@ Place Debuggee::move(Move move) {
   return place();
 }
 
-Place Debuggee::moveTo(const session::Position& position) {
-  const frontend::Shader& shader = stepper().shader();
+// Nothing that a file says need be true.
+static bool isPlace(const frontend::Shader& shader, const session::Position& position) {
   const auto among = [](int id, std::size_t count) {
     return id >= 0 && static_cast<std::size_t>(id) < count;
   };
-  const bool calls = std::all_of(position.call_path.begin(), position.call_path.end(),
-                                 [&](frontend::CallId call) { return among(call, shader.calls.size()); });
-  if (!position.ended() && (!calls || !among(position.statement, shader.statements.size())))
+  frontend::FunctionId function = shader.main;
+  for (const frontend::CallId id : position.call_path) {
+    if (!among(id, shader.calls.size())) return false;
+    const frontend::Call& call = shader.calls[static_cast<std::size_t>(id)];
+    if (call.caller != function) return false;
+    function = call.callee;
+  }
+  if (!among(position.statement, shader.statements.size())) return false;
+  const frontend::Statement& statement = shader.statements[static_cast<std::size_t>(position.statement)];
+  const bool stands = statement.kind != frontend::StatementKind::block &&
+                      statement.kind != frontend::StatementKind::case_label;
+  return stands && statement.function == function && among(position.calls_done, statement.calls.size() + 1) &&
+         position.iterations.size() >=
+             instrumenter::numberedLoops(shader, session::probeAt(shader, position)).size();
+}
+
+Place Debuggee::moveTo(const session::Position& position) {
+  if (!position.ended() && !isPlace(stepper().shader(), position))
     throw Error(Outcome::usage, "there is no such place in this shader");
   stepper().moveTo(position);
   return place();

@@ -3,6 +3,9 @@
 #include <signal.h>
 
 #include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QTemporaryDir>
 #include <chrono>
 #include <future>
@@ -253,6 +256,29 @@ TEST(Draw, ASessionOfAnotherShaderStartsAtMain) {
   window.settle();
   EXPECT_EQ(window.debugger().place()->position, start);
   EXPECT_TRUE(window.lastMessage().contains("another one")) << window.lastMessage().toStdString();
+}
+
+// A session file can be changed by anybody.
+TEST(Draw, APlaceThatCannotBeIsRefused) {
+  Window window;
+  window.start(smallRaycaster());
+  const session::Position start = window.debugger().place()->position;
+  window.pick(20, 31);
+  for (int i = 0; i < 60 && window.debugger().place()->loops.empty(); ++i) window.press("over");
+  for (int i = 0; i < 60 && window.debugger().place()->stack.size() < 2; ++i) window.press("into");
+  const QJsonObject stored = QJsonDocument::fromJson(window.debugger().saved()).object();
+  const auto isRefused = [&](const char* name, const QJsonValue& value) {
+    QJsonObject changed = stored, place = stored["place"].toObject();
+    place[QLatin1String(name)] = value;
+    changed["place"] = place;
+    window.debugger().restore(QJsonDocument(changed).toJson());
+    window.settle();
+    return window.lastMessage().contains("no such place") && window.debugger().place()->position == start;
+  };
+  EXPECT_TRUE(isRefused("iterations", QJsonArray())) << window.lastMessage().toStdString();
+  EXPECT_TRUE(isRefused("calls", QJsonArray())) << window.lastMessage().toStdString();
+  EXPECT_TRUE(isRefused("calls done", 99)) << window.lastMessage().toStdString();
+  EXPECT_TRUE(isRefused("statement", 0)) << window.lastMessage().toStdString();
 }
 
 TEST(Draw, LooksAheadAndBackWithoutDrawing) {
