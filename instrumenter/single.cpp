@@ -24,6 +24,20 @@ std::string addFields(Attachments& attachments, const Shader& shader, const Prob
   return "";
 }
 
+bool mayRepeat(const Shader& shader, const Probe& probe) {
+  const frontend::FunctionId function = shader.statements[static_cast<std::size_t>(probe.statement)].function;
+  const bool any_call = probe.call_path.empty() && functionAt(shader, function).name != "main";
+  return any_call || !numberedLoops(shader, probe).empty();
+}
+
+// What always holds, but not for the compiler. llvmpipe (Mesa 22.3) goes on computing, also in threads that
+// have left a loop, what depends on nothing of the iteration before: without a condition, words that a loop
+// captures last would be those of the slowest thread nearby.
+std::string opaqueTruth(Draft& draft) {
+  draft.declare("uniform " + draft.highp() + "int " + draft.name("probe") + ";");
+  return draft.name("probe") + " == 0";
+}
+
 }  // namespace
 
 Result<AttachmentShader> instrumentSingle(const Shader& shader, const Probe& probe, const Target& target) {
@@ -47,7 +61,9 @@ Result<AttachmentShader> instrumentSingle(const Shader& shader, const Probe& pro
     values.push_back(withoutFragColor(frontend::operandOf(probe.watches[i])));
   std::vector<std::string> numbers;
   for (const int iteration : probe.iterations) numbers.push_back(std::to_string(iteration));
-  place(draft, conditions, paths, {{probe, "", numbers, attachments.assign(kLaunched | kReached, values)}});
+  const std::string guard = numbers.empty() && mayRepeat(shader, probe) ? opaqueTruth(draft) : "";
+  place(draft, conditions, paths,
+        {{probe, guard, numbers, attachments.assign(kLaunched | kReached, values)}});
   // 4. The copies, now that their edits are complete.
   if (auto failure = paths.insertCopies()) return *failure;
 

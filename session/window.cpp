@@ -129,7 +129,9 @@ std::vector<Probe> probesAround(const frontend::Shader& shader, const Probe& fir
     ahead.push_back(navigation.into(position));
   };
   add(first);
-  goOn(positionOf(shader, first));
+  // Steps lead from one iteration to another; where any iteration is meant, there are none.
+  if (first.iterations.size() == instrumenter::numberedLoops(shader, first).size())
+    goOn(positionOf(shader, first));
   while (!ahead.empty() && probes.size() < most) {
     const Position position = std::move(ahead.front());
     ahead.pop_front();

@@ -152,5 +152,44 @@ TEST(Zero, HasNoSignByAnyPlan) {
   }
 }
 
+// Where a loop runs at least once, llvmpipe goes on computing in threads that have left it: what a loop
+// computed last must be each thread's own, in a function that it calls as well.
+constexpr const char* kLeft = R"glsl(#version 430
+uniform vec2 size;
+uniform sampler2D map;
+out vec4 color;
+float kept(float a) {
+  return a;
+}
+void main() {
+  vec2 position = vec2(0.0);
+  float sum = 0.0;
+  while (true) {
+    float seen = textureLod(map, position, 0.0).x + position.x;
+    sum += kept(seen);
+    position += size / 16.0;
+    if (position.x > gl_FragCoord.x)
+      break;
+  }
+  color = vec4(sum);
+}
+)glsl";
+
+TEST(LastValues, AreThoseOfTheThreadItself) {
+  const Scratch scratch;
+  std::ofstream(scratch.file("shader.frag")) << kLeft;
+  for (const char* plan : {"single", "window", "recording"}) {
+    for (const auto& [line, name] : {std::pair{"13", "seen"}, {"6", "a"}}) {
+      const Finished run =
+          scratch.shadestep({"debug", "--at", line, "--print", name, "--plan", plan, "--csv", "values.csv"},
+                            {binary("programs/shader-file"), scratch.file("shader.frag")});
+      ASSERT_EQ(run.status, 0) << plan << run.err;
+      const auto rows = readCsv(scratch.file("values.csv"));
+      ASSERT_EQ(rows.size(), 256U);
+      for (const auto& row : rows) ASSERT_EQ(row[2], row[0]) << name << " by " << plan;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shadestep::test

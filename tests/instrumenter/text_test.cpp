@@ -60,15 +60,17 @@ TEST(Declaration, CapturesBehindAllDeclarators) {
 TEST(Condition, IsBuffered) {
   expectProbed("void main() {\nint i = n;\nif (i++ < 10) { color = vec4(0.0); }\n}", 7, When::after,
                "if ((sd_outcome = (i++ < 10), CAPTURE, sd_outcome)) {");
-  expectProbed("void main() {\nint i = n;\nwhile (i-- > 0, i > 2) color = vec4(0.0);\n}", 7, When::after,
-               "while ((sd_outcome = (i-- > 0, i > 2), CAPTURE, sd_outcome)) color");
+  expectProbed(
+      "void main() {\nint i = n;\nwhile (i-- > 0, i > 2) color = vec4(0.0);\n}", 7, When::after,
+      "while ((sd_outcome = (i-- > 0, i > 2), (sd_probe == 0 && (CAPTURE, true)), sd_outcome)) color");
   expectProbed("void main() {\nint i = n;\ndo { i--; }\nwhile (i > 2);\n}", 7, When::after,
-               "while ((sd_outcome = (i > 2), CAPTURE, sd_outcome)) ;");
+               "while ((sd_outcome = (i > 2), (sd_probe == 0 && (CAPTURE, true)), sd_outcome)) ;");
 }
 
 TEST(Condition, ThatDeclaresIsBufferedInItsInitializer) {
-  expectProbed("bool f() { return n > 1; }\nvoid main() {\nwhile (bool b = f()) break;\n}", 7, When::after,
-               "while (bool b = (sd_outcome = (f()), CAPTURE, sd_outcome)) break;");
+  expectProbed(
+      "bool f() { return n > 1; }\nvoid main() {\nwhile (bool b = f()) break;\n}", 7, When::after,
+      "while (bool b = (sd_outcome = (f()), (sd_probe == 0 && (CAPTURE, true)), sd_outcome)) break;");
 }
 
 TEST(Condition, OfASwitchKeepsItsType) {
@@ -104,8 +106,9 @@ TEST(Loop, CountsOnlyWhatTheProbeNumbers) {
       "void main() {\nfor (int i = 0; i < n; i++)\nfor (int j = 0; j < n; j++)\ncolor += 1.0;\n}";
   expectProbed(body, 8, When::before,
                "for (int j = 0; j < n; j++) { (sd_iteration0 == 1 && (CAPTURE, true)); color", 0, {1});
-  expectProbed(body, 8, When::before,
-               "for (int i = 0; i < n; i++) for (int j = 0; j < n; j++) { CAPTURE; color");
+  expectProbed(
+      body, 8, When::before,
+      "for (int i = 0; i < n; i++) for (int j = 0; j < n; j++) { (sd_probe == 0 && (CAPTURE, true)); color");
 }
 
 TEST(Loop, IsNumberedAlongTheCallPath) {
@@ -195,8 +198,10 @@ TEST(Function, IsClonedForOneCallAlone) {
              "float f(float a); float sd_f0(float a); void sd_main() { color = vec4(f(1.0) + sd_f0(2.0)); }");
   expectPart(text, withCapture("float f(float a) { return a; } float sd_f0(float a) { CAPTURE; return a; }"));
   probe.call_path.clear();
-  expectPart(single(shader, probe),
-             withCapture("vec4(f(1.0) + f(2.0)); } float f(float a) { CAPTURE; return a; }"));
+  expectPart(
+      single(shader, probe),
+      withCapture(
+          "vec4(f(1.0) + f(2.0)); } float f(float a) { (sd_probe == 0 && (CAPTURE, true)); return a; }"));
 }
 
 // The probe inside of the statement at a line, at the `index`th token of this text.
