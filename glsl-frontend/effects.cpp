@@ -349,8 +349,12 @@ class Combiner {
     }
     chain->names = static_cast<int>(numbers.size());
     for (const Variable& variable : shader_.variables) chain->shown.push_back(isShown(variable));
+    const auto redeclared = [&](VariableId id) {
+      return std::any_of(skeleton_.visible.begin(), skeleton_.visible.end(),
+                         [&](const VisibleVariable& step) { return step.variable == id; });
+    };
     for (VariableId id : skeleton_.builtins) {
-      if (isShown(at(shader_.variables, id))) chain->builtins.push_back(id);
+      if (isShown(at(shader_.variables, id)) && !redeclared(id)) chain->builtins.push_back(id);
     }
     for (std::size_t i = 0; i < shader_.statements.size(); ++i) {
       shader_.statements[i].scope = Scope(chain, skeleton_.statement_visible[i]);

@@ -15,7 +15,7 @@ struct ScopeChain {
   };
   std::vector<Link> links;
   std::vector<bool> shown;    // per variable: it holds a value and concerns the user
-  std::vector<int> builtins;  // visible everywhere
+  std::vector<int> builtins;  // visible everywhere; those that the text redeclares first are links
   int names = 0;
 };
 

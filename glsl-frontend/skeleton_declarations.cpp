@@ -192,6 +192,7 @@ VariableId Parser::declaredHere(const std::string& name) const {
 VariableId Parser::declare(const Qualifiers& qualifiers, TokenIndex name_token) {
   const std::string& name = tokens_[static_cast<std::size_t>(name_token)].text;
   if (isBuiltinName(name)) {
+    redeclareBuiltin(name);
     const VariableId variable = builtin(name);
     out_.declared_names.push_back(name);
     out_.resolved[static_cast<std::size_t>(name_token)] = variable;

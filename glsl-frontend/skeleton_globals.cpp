@@ -38,6 +38,7 @@ void Parser::skipTo(std::string_view end) {
 void Parser::redeclaredNames() {
   while (!is(";")) {
     if (!isName() && !is(",")) fail("'" + text() + "' does not fit into a declaration");
+    if (isBuiltinName(text())) redeclareBuiltin(text());
     if (isName()) resolve(current());
     ++at_;
   }
@@ -57,8 +58,13 @@ void Parser::interfaceBlock(const Qualifiers& qualifiers) {
     ++at_;
     arrayDimensions();
     declare(qualifiers, instance);
-  } else if (!is_builtin) {
-    for (TokenIndex name : names) declare(qualifiers, name);
+  } else {
+    for (TokenIndex name : names) {
+      if (is_builtin)
+        redeclareBuiltin(tokens_[static_cast<std::size_t>(name)].text);
+      else
+        declare(qualifiers, name);
+    }
   }
   expect(";");
 }

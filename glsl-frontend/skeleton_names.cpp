@@ -44,6 +44,12 @@ VariableId Parser::builtin(const std::string& name) {
   return found->second;
 }
 
+void Parser::redeclareBuiltin(const std::string& name) {
+  const bool fresh = !builtins_.contains(name);
+  const VariableId variable = builtin(name);
+  if (fresh) bind(name, variable);
+}
+
 void Parser::resolve(TokenIndex index) {
   const std::string& name = tokens_[static_cast<std::size_t>(index)].text;
   out_.resolved[static_cast<std::size_t>(index)] = isBuiltinName(name) ? builtin(name) : lookup(name);

@@ -139,6 +139,9 @@ class Parser {
   static bool isBuiltinName(std::string_view name) { return name.substr(0, 3) == "gl_"; }
 
   VariableId builtin(const std::string& name);
+  // `layout(origin_upper_left) in vec4 gl_FragCoord;`: drivers refuse a use before the first redeclaration,
+  // so that it is not visible there.
+  void redeclareBuiltin(const std::string& name);
   void resolve(TokenIndex index);
 
   // ---- expressions

@@ -100,5 +100,20 @@ TEST(Scopes, ATypesNameHidesAVariable) {
                    "#version 120\nvec3 a; float b;\n"));
 }
 
+TEST(Scopes, ABuiltInThatIsDeclaredAgainIsVisibleBehindThat) {
+  const Shader shader = analysed(
+      "#version 150\nfloat f() { return 1.0; }\nlayout(origin_upper_left) in vec4 gl_FragCoord;\n"
+      "out vec4 color;\nvoid main() { color = gl_FragCoord * f(); }\n");
+  expectReadable(shader);
+  const auto sees = [&](int line) {
+    const Scope& scope =
+        shader.statements[static_cast<std::size_t>(statementsAt(shader, line).front())].scope;
+    return std::any_of(scope.begin(), scope.end(),
+                       [&](VariableId id) { return variable(shader, id).name == "gl_FragCoord"; });
+  };
+  EXPECT_FALSE(sees(2));
+  EXPECT_TRUE(sees(5));
+}
+
 }  // namespace
 }  // namespace shadestep::frontend
