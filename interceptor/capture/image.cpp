@@ -41,15 +41,14 @@ void allocateDepth(int width, int height) {
   gl().BindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(unpacked));
 }
 
-// The texture is bound to `target`. Storage that cannot change only where a view needs it: older drivers lack
-// it.
-void allocate(const DrawTarget& shape, GLenum target, GLenum format, bool view) {
+// The texture is bound to `target`. Storage that cannot change only where a view or OpenGL ES needs it: older
+// drivers lack it.
+void allocate(const DrawTarget& shape, GLenum target, GLenum format, bool storage) {
   const GLboolean fixed = shape.fixed_sample_locations ? GL_TRUE : GL_FALSE;
   const GLsizei width = shape.width;
   const GLsizei height = shape.height;
   const GLsizei layers = shape.layers;
   const GLsizei samples = shape.samples;
-  const bool storage = view || !dispatch::available("glTexImage2DMultisample");
   if (target == GL_TEXTURE_2D) {
     allocateDepth(width, height);
   } else if (target == GL_TEXTURE_2D_ARRAY) {
@@ -113,7 +112,7 @@ void Image::makeTexture(const guard::ContextFacts& facts, const DrawTarget& shap
   gl().GetIntegerv(bindingOf(texture_.target), &before);
   gl().GenTextures(1, &texture_.texture);
   gl().BindTexture(texture_.target, texture_.texture);
-  allocate(shape, texture_.target, internal_format, view_format != 0);
+  allocate(shape, texture_.target, internal_format, view_format != 0 || facts.es);
   if (view_format != 0 && facts.textureViews()) {
     gl().GenTextures(1, &view_);
     gl().TextureView(view_, texture_.target, texture_.texture, view_format, 0, 1, 0,

@@ -115,8 +115,7 @@ void PlaneReader::fetchSample(const Image& image, Part part, GLenum type, int la
   const GLuint fetch = program(type);
   gl().UseProgram(fetch);
   gl().Uniform1i(gl().GetUniformLocation(fetch, "image"), 0);
-  gl().Uniform3i(gl().GetUniformLocation(fetch, "plane"), layer, sample,
-                 target_.framebuffer == 0 && facts_.storesUpsideDown() ? target_.height : 0);
+  gl().Uniform3i(gl().GetUniformLocation(fetch, "plane"), layer, sample, upside_down_ ? target_.height : 0);
   gl().DrawArrays(GL_TRIANGLES, 0, 3);
   gl().BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   gl().ReadBuffer(GL_COLOR_ATTACHMENT0);

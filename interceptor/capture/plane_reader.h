@@ -22,6 +22,9 @@ class PlaneReader {
   PlaneReader(const PlaneReader&) = delete;
   PlaneReader& operator=(const PlaneReader&) = delete;
 
+  // Whether the rows of the images are stored from the top: false until this says otherwise.
+  void storedUpsideDown(bool yes) { upside_down_ = yes; }
+
   enum class Part { color, depth, stencil };
 
   // Binds a framebuffer for reading that holds the plane of a texture image: a layer as the attachment that
@@ -36,6 +39,7 @@ class PlaneReader {
 
   const guard::ContextFacts& facts_;
   const DrawTarget& target_;
+  bool upside_down_ = false;
   GLuint framebuffer_ = 0;
   GLuint vertex_array_ = 0;
   std::map<GLenum, GLuint> destinations_;  // renderbuffers, by their format

@@ -22,14 +22,18 @@ void detach(GLenum attachment) {
 }
 
 // Window-system framebuffers are stored from the top by Mesa. A copy that is not would be rasterized from the
-// other side, and interpolated values would differ in their last bits.
-void storeAsWindow(const guard::ContextFacts& facts) {
-  if (!facts.storesUpsideDown()) return;
-  if (dispatch::available("glFramebufferParameteriMESA")) {
-    gl().FramebufferParameteriMESA(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_FLIP_Y_MESA, GL_TRUE);
-  } else {
+// other side, and interpolated values would differ in their last bits. Mesa has the extension's own command in
+// every context, but refuses it in those of the compatibility profile. Returns whether the copy is stored so.
+bool storeAsWindow(const guard::ContextFacts& facts) {
+  if (!facts.storesUpsideDown()) return false;
+  guard::clearErrors();
+  if (!facts.es || facts.framebufferDefaults()) {
+    if (!dispatch::available("glFramebufferParameteri")) return false;
     gl().FramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_FLIP_Y_MESA, GL_TRUE);
+  } else {
+    gl().FramebufferParameteriMESA(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_FLIP_Y_MESA, GL_TRUE);
   }
+  return gl().GetError() == GL_NO_ERROR;
 }
 
 // All of the target's pixels. Drivers count the bytes of one call in 32 bits, perhaps with a sign, and crash
@@ -67,6 +71,11 @@ guard::Refusal Shadow::fill(const guard::FramebufferGuard& clip, const std::vect
   if (!built_ && !build()) return refusal_;
   clip.unclip();
   gl().BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
+  if (start == Start::copied && facts_.es && target_.samples > 0) {
+    return guard::unsupported(
+        "OpenGL ES does not copy multisampled framebuffers; have replays start from the clear values "
+        "(--buffers clear)");
+  }
   if (start == Start::copied) copyProgramContents();
   attachCaptures(captures);
   selectDrawBuffers(captures);
@@ -89,7 +98,7 @@ guard::Refusal Shadow::fill(const guard::FramebufferGuard& clip, const std::vect
 bool Shadow::build() {
   gl().GenFramebuffers(1, &framebuffer_);
   gl().BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
-  if (target_.framebuffer == 0) storeAsWindow(facts_);
+  if (target_.framebuffer == 0) reader_.storedUpsideDown(storeAsWindow(facts_));
   if (facts_.framebufferDefaults()) takeDefaults();
   for (const ColorBuffer& color : target_.colors) {
     colors_.emplace_back(facts_, target_, color.format.internal_format);

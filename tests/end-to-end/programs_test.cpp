@@ -167,5 +167,32 @@ TEST(Programs, WindowsOfOpenGlEsWith32BitsOfDepth) {
   }
 }
 
+// Drivers may store windows from the top, and copies of them, or not.
+TEST(Programs, WindowsOfSeveralSamplesAreNotUpsideDown) {
+  for (const char* api : {"es", "core", "compatibility"}) {
+    const Scratch scratch;
+    const std::vector<std::string> command = {program("multisampled-window"), api};
+    if (scratch.run(command).status == 77) GTEST_SKIP() << "no multisampled pbuffer";
+    const auto debug = [&](std::vector<std::string> options) {
+      options.insert(options.begin(), {"debug", "--buffers", "clear", "--json"});
+      return scratch.shadestep(options, command);
+    };
+    const Finished all = debug({"--at", "7", "--print", "row", "--csv", "rows.csv"});
+    ASSERT_EQ(all.status, 0) << all.err;
+    const auto rows = readCsv(scratch.file("rows.csv"));
+    EXPECT_EQ(rows.size(), 64U * 64U);
+    for (const auto& row : rows) ASSERT_EQ(row.at(2), row.at(1)) << api;
+    const Json run = debug({"--pixel", "20,5"}).json();
+    EXPECT_EQ(lastValue(run, "row"), 5) << api;
+    EXPECT_FLOAT_EQ(run.at("outputs").at(0).at(0).get<float>(), 5.0F / 255) << api;
+    EXPECT_EQ(run.at("thread").at("visible"), true) << api;
+
+    const Finished copied = scratch.shadestep({"debug", "--pixel", "20,5"}, command);
+    const bool es = api == std::string("es");
+    EXPECT_EQ(copied.status, es ? 4 : 0) << copied.err;
+    EXPECT_EQ(copied.err.find("--buffers clear") != std::string::npos, es) << copied.err;
+  }
+}
+
 }  // namespace
 }  // namespace shadestep::test

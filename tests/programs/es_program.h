@@ -11,15 +11,18 @@
 #include <utility>
 
 // A context of OpenGL ES 3.MINOR, current while it lives, with a target of SIZE x SIZE pixels: a
-// renderbuffer, or a pbuffer with 32 bits of depth (status 77: there is none).
+// renderbuffer, or a pbuffer with 32 bits of depth or 4 samples a pixel (status 77: there is none).
+// Or, with `api` EGL_OPENGL_API, of OpenGL 3.MINOR.
 class EsContext {
  public:
-  enum class Target { renderbuffer, deep_window };
-  EsContext(int minor, int size, Target target = Target::renderbuffer) {
+  enum class Target { renderbuffer, deep_window, multisampled_window };
+  EsContext(int minor, int size, Target target = Target::renderbuffer, EGLenum api = EGL_OPENGL_ES_API) {
     display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     const EGLint depth = target == Target::deep_window ? 32 : 0;
+    const bool window = target != Target::renderbuffer;
+    const EGLint samples = target == Target::multisampled_window ? 4 : 0;
     const EGLint wanted[] = {EGL_RENDERABLE_TYPE,
-                             EGL_OPENGL_ES3_BIT,
+                             api == EGL_OPENGL_API ? EGL_OPENGL_BIT : EGL_OPENGL_ES3_BIT,
                              EGL_SURFACE_TYPE,
                              EGL_PBUFFER_BIT,
                              EGL_RED_SIZE,
@@ -28,18 +31,20 @@ class EsContext {
                              8,
                              EGL_DEPTH_SIZE,
                              depth,
+                             EGL_SAMPLES,
+                             samples,
                              EGL_NONE};
     const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, minor, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint configs = 0;
-    if (!eglInitialize(display_, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_ES_API) ||
+    if (!eglInitialize(display_, nullptr, nullptr) || !eglBindAPI(api) ||
         !eglChooseConfig(display_, wanted, &config, 1, &configs) || configs == 0) {
       std::fprintf(stderr, "no OpenGL ES on EGL\n");
-      std::exit(depth > 0 ? 77 : 1);
+      std::exit(window ? 77 : 1);
     }
     EGLContext context = eglCreateContext(display_, config, EGL_NO_CONTEXT, version);
     EGLSurface surface = EGL_NO_SURFACE;
-    if (target == Target::deep_window) {
+    if (window) {
       const EGLint extent[] = {EGL_WIDTH, size, EGL_HEIGHT, size, EGL_NONE};
       surface = eglCreatePbufferSurface(display_, config, extent);
     }
