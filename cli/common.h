@@ -74,6 +74,7 @@ void addDraws(CLI::App&, Common&, Action&);
 void addCalls(CLI::App&, Common&, Action&);
 void addBreak(CLI::App&, Common&, Action&);
 void addSource(CLI::App&, Common&, Action&);
+void addState(CLI::App&, Common&, Action&);
 void addDebug(CLI::App&, Common&, Action&);
 void addStep(CLI::App&, Common&, Action&);
 void addLoops(CLI::App&, Common&, Action&);

@@ -33,6 +33,7 @@ int runCommandLine(int argc, char** argv) {
   cli::addCalls(app, common, action);
   cli::addBreak(app, common, action);
   cli::addSource(app, common, action);
+  cli::addState(app, common, action);
   cli::addDebug(app, common, action);
   cli::addStep(app, common, action);
   cli::addLoops(app, common, action);

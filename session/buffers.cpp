@@ -212,8 +212,9 @@ std::uint64_t ElementFormat::count(std::uint64_t there) const {
 ElementFormat formatOf(const BoundBuffer& bound) {
   using Kind = ElementFormat::Kind;
   ElementFormat format;
-  if (bound.use == BufferUse::indices || bound.use == BufferUse::commands) format.kind = Kind::uint32;
-  if (bound.use != BufferUse::vertices || bound.components == 0) return format;
+  if (bound.use == BufferUse::commands) format.kind = Kind::uint32;
+  const bool vertices = bound.use == BufferUse::vertices && bound.components != 0;
+  if (!vertices && bound.use != BufferUse::indices) return format;
   constexpr std::pair<std::uint32_t, Kind> kKinds[] = {
       {0x1400, Kind::int8},    {0x1401, Kind::uint8},   {0x1402, Kind::int16},
       {0x1403, Kind::uint16},  {0x1404, Kind::int32},   {0x1405, Kind::uint32},
@@ -266,6 +267,59 @@ std::string elementText(const ElementFormat& format, const std::vector<std::byte
       return hexText(numberAt<std::uint32_t>(from), 8);
   }
   return {};
+}
+
+const char* useName(BufferUse use) {
+  switch (use) {
+    case BufferUse::uniform_block:
+      return "uniform block";
+    case BufferUse::storage_block:
+      return "storage block";
+    case BufferUse::atomic_counters:
+      return "atomic counters";
+    case BufferUse::vertices:
+      return "vertex attribute";
+    case BufferUse::indices:
+      return "indices";
+    case BufferUse::commands:
+      return "indirect commands";
+    case BufferUse::feedback:
+      return "transform feedback";
+  }
+  return "";
+}
+
+namespace {
+
+// A draw may write to the buffers that it reads: what stands before it must stand there behind a replay, too.
+Check readAgain(Session& session, const BoundBuffer& bound, const std::vector<std::byte>& bytes) {
+  Check check;
+  try {
+    ExecuteOptions options;
+    options.compare = false;
+    options.read_captures = false;
+    session.execute(session.prepareOriginal(), options);
+  } catch (const Error& error) {
+    if (error.outcome() == Outcome::ended) throw;
+    check.reason = error.what();
+    return check;
+  }
+  const std::vector<std::byte> again = session.readBuffer(bound.buffer, bound.offset, bytes.size());
+  check.compared_at_all = true;
+  check.compared = bytes.size();
+  for (std::size_t i = 0; i < bytes.size(); ++i) check.differing += bytes[i] != again[i] ? 1 : 0;
+  return check;
+}
+
+}  // namespace
+
+BufferContents bufferContents(Session& session, const BoundBuffer& bound) {
+  BufferContents contents;
+  contents.bytes =
+      session.readBuffer(bound.buffer, bound.offset, std::min(bound.bytes, BufferContents::kMostBytes));
+  contents.values = blockValues(bound, contents.bytes);
+  contents.check = readAgain(session, bound, contents.bytes);
+  return contents;
 }
 
 }  // namespace shadestep::session

@@ -11,6 +11,8 @@
 
 namespace shadestep::session {
 
+const char* useName(BufferUse);  // "uniform block"
+
 // One member of a block, or one element of an array in it.
 struct MemberValue {
   std::string name;          // "light.colour", "weights[2]"
@@ -57,10 +59,21 @@ struct ElementFormat {
   // Elements that are whole.
   std::uint64_t count(std::uint64_t bytes) const;
 };
-// How a vertex attribute reads its buffer; floats for all others.
+// How a vertex attribute or an indexed draw reads its buffer; floats for all others.
 ElementFormat formatOf(const BoundBuffer&);
 // A component of an element; empty where there is none.
 std::string elementText(const ElementFormat&, const std::vector<std::byte>&, std::uint64_t element,
                         int component);
+
+// What stands in a buffer at the draw. It takes a replay: what the draw itself changes, `check` counts, in
+// bytes.
+struct BufferContents {
+  static constexpr std::uint64_t kMostBytes = 64ULL << 20;  // more of a buffer is not read
+
+  std::vector<std::byte> bytes;
+  BlockValues values;  // of a block
+  Check check;
+};
+BufferContents bufferContents(Session&, const BoundBuffer&);
 
 }  // namespace shadestep::session

@@ -274,13 +274,6 @@ const frontend::Shader& Session::shader(Stage stage) {
               "the draw's program has no " + std::string(stageName(stage)) + " shader; it has: " + present);
 }
 
-std::vector<std::pair<std::string, std::string>> Session::glState() {
-  const auto [reply, bulk] = state_->ask<wire::StateT>(wire::DescribeStateT{});
-  std::vector<std::pair<std::string, std::string>> values;
-  for (const auto& one : reply.values) values.emplace_back(one->name, one->value);
-  return values;
-}
-
 std::vector<SampledTexture> Session::textures(const std::vector<SamplerName>& samplers) {
   wire::DescribeTexturesT request;
   request.stage = static_cast<wire::Stage>(stage());

@@ -350,6 +350,7 @@ class Session {
   instrumenter::Target target();  // what the driver offers to instrumented shaders of this stage
 
   // All state of the program's context that can be asked for: names and values, always in the same order.
+  // What OpenGL gives as integers and as floats is there once, as what says more.
   std::vector<std::pair<std::string, std::string>> glState();
 
   // In the order of the names.

@@ -92,7 +92,6 @@ class Debuggee {
   void keep(const session::LoggedCall&);
   DrawEntry entry();
   TargetPtr drawnTarget(bool compare);
-  session::Check readAgain(const BufferView&);
   QImage thumbnail();
   std::string whyNot(session::Stage);
   session::Stepper& stepper();

@@ -115,35 +115,7 @@ BufferListPtr Debuggee::buffers() {
 }
 
 BufferPtr Debuggee::buffer(const session::BoundBuffer& bound) {
-  auto view = std::make_shared<BufferView>();
-  view->bound = bound;
-  view->bytes =
-      atDraw().readBuffer(bound.buffer, bound.offset, std::min(bound.bytes, BufferView::kMostBytes));
-  view->values = session::blockValues(bound, view->bytes);
-  view->check = readAgain(*view);
-  return view;
-}
-
-// A draw may write to the buffers that it reads: what stands before it must stand there behind a replay, too.
-session::Check Debuggee::readAgain(const BufferView& view) {
-  session::Session& session = atDraw();
-  session::Check check;
-  try {
-    session::ExecuteOptions options;
-    options.compare = false;
-    options.read_captures = false;
-    session.execute(session.prepareOriginal(), options);
-  } catch (const Error& error) {
-    if (error.outcome() == Outcome::ended) throw;
-    check.reason = error.what();
-    return check;
-  }
-  const std::vector<std::byte> again =
-      session.readBuffer(view.bound.buffer, view.bound.offset, view.bytes.size());
-  check.compared_at_all = true;
-  check.compared = view.bytes.size();
-  for (std::size_t i = 0; i < view.bytes.size(); ++i) check.differing += view.bytes[i] != again[i] ? 1 : 0;
-  return check;
+  return std::make_shared<BufferView>(BufferView{session::bufferContents(atDraw(), bound), bound});
 }
 
 GlState Debuggee::glState() {

@@ -162,13 +162,8 @@ using TextureListPtr = std::shared_ptr<const std::vector<session::ShaderTexture>
 using TexturePtr = std::shared_ptr<const session::TextureImage>;
 
 // What stands in a buffer before the draw.
-struct BufferView {
-  static constexpr std::uint64_t kMostBytes = 64ULL << 20;  // more of a buffer is not read
-
+struct BufferView : session::BufferContents {
   session::BoundBuffer bound;
-  std::vector<std::byte> bytes;
-  session::BlockValues values;  // of a block
-  session::Check check;         // of the bytes, read again behind a replay of the draw
 };
 using BufferPtr = std::shared_ptr<const BufferView>;
 using BufferListPtr = std::shared_ptr<const std::vector<session::BoundBuffer>>;

@@ -14,26 +14,6 @@ namespace {
 using Kind = session::ElementFormat::Kind;
 using session::BufferUse;
 
-QString useName(BufferUse use) {
-  switch (use) {
-    case BufferUse::uniform_block:
-      return QObject::tr("uniform block");
-    case BufferUse::storage_block:
-      return QObject::tr("storage block");
-    case BufferUse::atomic_counters:
-      return QObject::tr("atomic counters");
-    case BufferUse::vertices:
-      return QObject::tr("vertex attribute");
-    case BufferUse::indices:
-      return QObject::tr("indices");
-    case BufferUse::commands:
-      return QObject::tr("indirect commands");
-    case BufferUse::feedback:
-      return QObject::tr("transform feedback");
-  }
-  return {};
-}
-
 constexpr std::pair<Kind, const char*> kKinds[] = {
     {Kind::float32, "float"},  {Kind::float16, "half"}, {Kind::float64, "double"}, {Kind::int32, "int"},
     {Kind::uint32, "uint"},    {Kind::int16, "int16"},  {Kind::uint16, "uint16"},  {Kind::int8, "int8"},
@@ -125,7 +105,7 @@ void BuffersPage::refresh() {
   for (const session::BoundBuffer& one : *debugger_.buffers()) {
     const bool numbered = one.use != BufferUse::indices && one.use != BufferUse::commands;
     auto* item = new QTreeWidgetItem(
-        {useName(one.use), QString::fromStdString(one.name),
+        {tr(session::useName(one.use)), QString::fromStdString(one.name),
          numbered ? QString::number(one.index) : QString(),
          one.buffer == 0 ? QString() : QString::number(one.buffer),
          one.bytes == 0 ? QString() : QString::fromStdString(session::withThousands(one.bytes)),

@@ -176,6 +176,7 @@ DrawFacts drawFacts(const calls::DrawCall& call) {
   }
   facts.feedback_components = feedbackComponents(call, context);
   facts.draws_points = call.takes_mode;
+  facts.index_type = call.index_type;
   guard::clearErrors();
   return facts;
 }

@@ -25,6 +25,7 @@ struct DrawFacts {
   std::string replay_reason;    // why it cannot, even without a target ("" if it can)
   int feedback_components = 0;  // that transform feedback can take at this draw
   bool draws_points = false;    // the call can be replayed with other primitives
+  GLenum index_type = 0;        // GL_UNSIGNED_SHORT, ...; 0: the call reads no indices
 };
 
 DrawFacts drawFacts(const calls::DrawCall&);

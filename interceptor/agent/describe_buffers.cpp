@@ -185,11 +185,12 @@ void addAttributes(const guard::ContextFacts& context, GLuint program, std::vect
   }
 }
 
-void addPlain(wire::BufferUse use, GLenum binding, std::vector<Bound>& list) {
+void addPlain(wire::BufferUse use, GLenum binding, std::vector<Bound>& list, GLenum type = 0) {
   const GLint buffer = integer(binding);
   if (buffer == 0) return;
   auto bound = std::make_unique<wire::BoundBufferT>();
   bound->use = use;
+  bound->type = type;
   setRange(*bound, static_cast<GLuint>(buffer), 0, 0);
   list.push_back(std::move(bound));
 }
@@ -225,7 +226,8 @@ guard::OrRefusal<wire::BuffersT> describeBuffers(const DrawFacts& facts) {
   }
   const GLuint vertices = facts.program == 0 ? 0 : originalOf(facts, wire::Stage::Vertex).program;
   if (vertices != 0) addAttributes(context, vertices, answer.buffers);
-  addPlain(wire::BufferUse::Indices, GL_ELEMENT_ARRAY_BUFFER_BINDING, answer.buffers);
+  if (facts.index_type != 0)
+    addPlain(wire::BufferUse::Indices, GL_ELEMENT_ARRAY_BUFFER_BINDING, answer.buffers, facts.index_type);
   if (context.atLeast(40, 31))
     addPlain(wire::BufferUse::Commands, GL_DRAW_INDIRECT_BUFFER_BINDING, answer.buffers);
   if (context.atLeast(43, 31))

@@ -29,7 +29,8 @@ struct DrawCall {
   // if it takes one, with another mode. Null: cannot be replayed by repeating the call; `reason` may say why.
   void (*replay)(const void* arguments, std::uint32_t mode);
   const void* arguments;
-  bool takes_mode = false;  // replay does
+  bool takes_mode = false;       // replay does
+  std::uint32_t index_type = 0;  // GL_UNSIGNED_SHORT, ...; 0: the call reads no indices
   const char* reason = nullptr;
 };
 

@@ -10,6 +10,7 @@
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/value_type.h"
 #include "interceptor/registry/state_names.h"
 
 namespace shadestep::guard {
@@ -50,7 +51,10 @@ std::string spell(const std::array<Number, kRoom>& numbers) {
   for (std::size_t i = 0; i < length; ++i) {
     char one[40];
     if constexpr (std::is_floating_point_v<Number>) {
-      std::snprintf(one, sizeof one, "%s%.9g", i > 0 ? " " : "", static_cast<double>(numbers[i]));
+      std::snprintf(one, sizeof one, "%s%.*g", i > 0 ? " " : "", sizeof(Number) == 8 ? 17 : 9,
+                    static_cast<double>(numbers[i]));
+    } else if constexpr (std::is_unsigned_v<Number>) {
+      std::snprintf(one, sizeof one, "%s%llu", i > 0 ? " " : "", static_cast<unsigned long long>(numbers[i]));
     } else {
       std::snprintf(one, sizeof one, "%s%lld", i > 0 ? " " : "", static_cast<long long>(numbers[i]));
     }
@@ -219,7 +223,7 @@ class Digest {
     }
   }
 
-  // The current program's uniforms, by location; of arrays the first element.
+  // The current program's uniforms, by location, as what they are; of arrays every element.
   void program() {
     const auto current = static_cast<GLuint>(std::max(program_(), 0));
     if (current == 0) return;
@@ -230,12 +234,10 @@ class Digest {
       GLint size = 0;
       GLenum type = 0;
       gl().GetActiveUniform(current, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type, name);
-      const GLint location = gl().GetUniformLocation(current, name);
-      if (location < 0) continue;
-      ask<GLint>(std::string("uniform ") + name,
-                 [&](GLint* to) { gl().GetUniformiv(current, location, to); });
-      ask<GLfloat>(std::string("uniform ") + name,
-                   [&](GLfloat* to) { gl().GetUniformfv(current, location, to); });
+      if (size == 1) uniform(current, name, type);
+      const std::string array(std::string_view(name).substr(0, std::string_view(name).rfind('[')));
+      for (GLint k = 0; size > 1 && k < size; ++k)
+        uniform(current, array + "[" + std::to_string(k) + "]", type);
     }
     clearErrors();
     if (!facts_.subroutines()) return;
@@ -252,6 +254,33 @@ class Digest {
           *to = static_cast<GLint>(index);
         });
       }
+    }
+  }
+
+  void uniform(GLuint current, const std::string& name, GLenum type) {
+    const GLint location = gl().GetUniformLocation(current, name.c_str());
+    if (location < 0) return;
+    const ValueType* const known = valueType(type);
+    const std::string told = "uniform " + name;
+    switch (known != nullptr ? known->scalar : Scalar::int_) {
+      case Scalar::float_:
+        ask<GLfloat>(told, [&](GLfloat* to) { gl().GetUniformfv(current, location, to); });
+        break;
+      case Scalar::int_:
+        ask<GLint>(told, [&](GLint* to) { gl().GetUniformiv(current, location, to); });
+        break;
+      case Scalar::uint_:
+        ask<GLuint>(told, [&](GLuint* to) { gl().GetUniformuiv(current, location, to); });
+        break;
+      case Scalar::double_:
+        ask<GLdouble>(told, [&](GLdouble* to) { gl().GetUniformdv(current, location, to); });
+        break;
+      case Scalar::int64_:
+        ask<GLint64>(told, [&](GLint64* to) { gl().GetUniformi64vARB(current, location, to); });
+        break;
+      case Scalar::uint64_:
+        ask<GLuint64>(told, [&](GLuint64* to) { gl().GetUniformui64vARB(current, location, to); });
+        break;
     }
   }
 

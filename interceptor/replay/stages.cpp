@@ -3,78 +3,42 @@
 #include "interceptor/replay/stages.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
+#include "interceptor/guard/value_type.h"
 
 namespace shadestep::replay {
 namespace {
 
 using dispatch::gl;
 
-// A type of what transform feedback writes, by its components.
-struct FeedbackType {
-  GLenum type;
-  guard::Number component;
-  int components;
-};
-
 using guard::Number;
-constexpr FeedbackType kFeedbackTypes[] = {
-    {GL_NONE, Number::unknown, 1},  // of gl_SkipComponentsN, whose size is N
-    {GL_FLOAT, Number::real, 1},
-    {GL_FLOAT_VEC2, Number::real, 2},
-    {GL_FLOAT_VEC3, Number::real, 3},
-    {GL_FLOAT_VEC4, Number::real, 4},
-    {GL_FLOAT_MAT2, Number::real, 4},
-    {GL_FLOAT_MAT2x3, Number::real, 6},
-    {GL_FLOAT_MAT2x4, Number::real, 8},
-    {GL_FLOAT_MAT3x2, Number::real, 6},
-    {GL_FLOAT_MAT3, Number::real, 9},
-    {GL_FLOAT_MAT3x4, Number::real, 12},
-    {GL_FLOAT_MAT4x2, Number::real, 8},
-    {GL_FLOAT_MAT4x3, Number::real, 12},
-    {GL_FLOAT_MAT4, Number::real, 16},
-    {GL_INT, Number::signed_integer, 1},
-    {GL_INT_VEC2, Number::signed_integer, 2},
-    {GL_INT_VEC3, Number::signed_integer, 3},
-    {GL_INT_VEC4, Number::signed_integer, 4},
-    {GL_UNSIGNED_INT, Number::unsigned_integer, 1},
-    {GL_UNSIGNED_INT_VEC2, Number::unsigned_integer, 2},
-    {GL_UNSIGNED_INT_VEC3, Number::unsigned_integer, 3},
-    {GL_UNSIGNED_INT_VEC4, Number::unsigned_integer, 4},
-    {GL_INT64_ARB, Number::unknown, 2},
-    {GL_INT64_VEC2_ARB, Number::unknown, 4},
-    {GL_INT64_VEC3_ARB, Number::unknown, 6},
-    {GL_INT64_VEC4_ARB, Number::unknown, 8},
-    {GL_UNSIGNED_INT64_ARB, Number::unknown, 2},
-    {GL_UNSIGNED_INT64_VEC2_ARB, Number::unknown, 4},
-    {GL_UNSIGNED_INT64_VEC3_ARB, Number::unknown, 6},
-    {GL_UNSIGNED_INT64_VEC4_ARB, Number::unknown, 8},
-    {GL_DOUBLE, Number::double_real, 1},
-    {GL_DOUBLE_VEC2, Number::double_real, 2},
-    {GL_DOUBLE_VEC3, Number::double_real, 3},
-    {GL_DOUBLE_VEC4, Number::double_real, 4},
-    {GL_DOUBLE_MAT2, Number::double_real, 4},
-    {GL_DOUBLE_MAT2x3, Number::double_real, 6},
-    {GL_DOUBLE_MAT2x4, Number::double_real, 8},
-    {GL_DOUBLE_MAT3x2, Number::double_real, 6},
-    {GL_DOUBLE_MAT3, Number::double_real, 9},
-    {GL_DOUBLE_MAT3x4, Number::double_real, 12},
-    {GL_DOUBLE_MAT4x2, Number::double_real, 8},
-    {GL_DOUBLE_MAT4x3, Number::double_real, 12},
-    {GL_DOUBLE_MAT4, Number::double_real, 16},
-};
 
-// The 32-bit words of `size` values of a type.
+Number numberOf(guard::Scalar scalar) {
+  switch (scalar) {
+    case guard::Scalar::float_:
+      return Number::real;
+    case guard::Scalar::int_:
+      return Number::signed_integer;
+    case guard::Scalar::uint_:
+      return Number::unsigned_integer;
+    case guard::Scalar::double_:
+      return Number::double_real;
+    default:
+      return Number::unknown;
+  }
+}
+
+// The 32-bit words of `size` values of a type; GL_NONE is that of gl_SkipComponentsN, whose size is N.
 void appendWords(GLenum type, GLint size, std::vector<Number>& words) {
-  const auto* found = std::find_if(std::begin(kFeedbackTypes), std::end(kFeedbackTypes),
-                                   [&](const FeedbackType& known) { return known.type == type; });
-  if (found == std::end(kFeedbackTypes)) return;
-  for (int i = 0; i < size * found->components; ++i) {
-    words.push_back(found->component);
-    if (found->component == Number::double_real) words.push_back(Number::second_word);
+  if (type == GL_NONE) words.insert(words.end(), static_cast<std::size_t>(size), Number::unknown);
+  const guard::ValueType* const known = guard::valueType(type);
+  if (known == nullptr) return;
+  const Number number = numberOf(known->scalar);
+  for (int i = 0; i < size * known->components(); ++i) {
+    words.push_back(number);
+    if (known->wide()) words.push_back(number == Number::double_real ? Number::second_word : Number::unknown);
   }
 }
 

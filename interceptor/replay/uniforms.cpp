@@ -8,86 +8,26 @@
 #include "interceptor/dispatch/dispatch.h"
 #include "interceptor/guard/errors.h"
 #include "interceptor/guard/texture_level.h"
+#include "interceptor/guard/value_type.h"
 
 namespace shadestep::replay {
 namespace {
 
 using dispatch::gl;
-
-enum class Scalar { float_, int_, uint_, double_, int64_, uint64_ };
-
-struct UniformType {
-  GLenum type;
-  Scalar scalar;
-  int rows, columns;  // columns > 1: a matrix
-  bool wide() const {
-    return scalar == Scalar::double_ || scalar == Scalar::int64_ || scalar == Scalar::uint64_;
-  }
-  int words() const { return rows * columns * (wide() ? 2 : 1); }
-};
-
-constexpr std::array kTypes = {
-    UniformType{GL_FLOAT, Scalar::float_, 1, 1},
-    UniformType{GL_FLOAT_VEC2, Scalar::float_, 2, 1},
-    UniformType{GL_FLOAT_VEC3, Scalar::float_, 3, 1},
-    UniformType{GL_FLOAT_VEC4, Scalar::float_, 4, 1},
-    UniformType{GL_INT, Scalar::int_, 1, 1},
-    UniformType{GL_INT_VEC2, Scalar::int_, 2, 1},
-    UniformType{GL_INT_VEC3, Scalar::int_, 3, 1},
-    UniformType{GL_INT_VEC4, Scalar::int_, 4, 1},
-    UniformType{GL_UNSIGNED_INT, Scalar::uint_, 1, 1},
-    UniformType{GL_UNSIGNED_INT_VEC2, Scalar::uint_, 2, 1},
-    UniformType{GL_UNSIGNED_INT_VEC3, Scalar::uint_, 3, 1},
-    UniformType{GL_UNSIGNED_INT_VEC4, Scalar::uint_, 4, 1},
-    UniformType{GL_BOOL, Scalar::int_, 1, 1},
-    UniformType{GL_BOOL_VEC2, Scalar::int_, 2, 1},
-    UniformType{GL_BOOL_VEC3, Scalar::int_, 3, 1},
-    UniformType{GL_BOOL_VEC4, Scalar::int_, 4, 1},
-    UniformType{GL_DOUBLE, Scalar::double_, 1, 1},
-    UniformType{GL_DOUBLE_VEC2, Scalar::double_, 2, 1},
-    UniformType{GL_DOUBLE_VEC3, Scalar::double_, 3, 1},
-    UniformType{GL_DOUBLE_VEC4, Scalar::double_, 4, 1},
-    UniformType{GL_FLOAT_MAT2, Scalar::float_, 2, 2},
-    UniformType{GL_FLOAT_MAT3, Scalar::float_, 3, 3},
-    UniformType{GL_FLOAT_MAT4, Scalar::float_, 4, 4},
-    UniformType{GL_FLOAT_MAT2x3, Scalar::float_, 3, 2},
-    UniformType{GL_FLOAT_MAT2x4, Scalar::float_, 4, 2},
-    UniformType{GL_FLOAT_MAT3x2, Scalar::float_, 2, 3},
-    UniformType{GL_FLOAT_MAT3x4, Scalar::float_, 4, 3},
-    UniformType{GL_FLOAT_MAT4x2, Scalar::float_, 2, 4},
-    UniformType{GL_FLOAT_MAT4x3, Scalar::float_, 3, 4},
-    UniformType{GL_DOUBLE_MAT2, Scalar::double_, 2, 2},
-    UniformType{GL_DOUBLE_MAT3, Scalar::double_, 3, 3},
-    UniformType{GL_DOUBLE_MAT4, Scalar::double_, 4, 4},
-    UniformType{GL_DOUBLE_MAT2x3, Scalar::double_, 3, 2},
-    UniformType{GL_DOUBLE_MAT2x4, Scalar::double_, 4, 2},
-    UniformType{GL_DOUBLE_MAT3x2, Scalar::double_, 2, 3},
-    UniformType{GL_DOUBLE_MAT3x4, Scalar::double_, 4, 3},
-    UniformType{GL_DOUBLE_MAT4x2, Scalar::double_, 2, 4},
-    UniformType{GL_DOUBLE_MAT4x3, Scalar::double_, 3, 4},
-    UniformType{GL_INT64_ARB, Scalar::int64_, 1, 1},
-    UniformType{GL_INT64_VEC2_ARB, Scalar::int64_, 2, 1},
-    UniformType{GL_INT64_VEC3_ARB, Scalar::int64_, 3, 1},
-    UniformType{GL_INT64_VEC4_ARB, Scalar::int64_, 4, 1},
-    UniformType{GL_UNSIGNED_INT64_ARB, Scalar::uint64_, 1, 1},
-    UniformType{GL_UNSIGNED_INT64_VEC2_ARB, Scalar::uint64_, 2, 1},
-    UniformType{GL_UNSIGNED_INT64_VEC3_ARB, Scalar::uint64_, 3, 1},
-    UniformType{GL_UNSIGNED_INT64_VEC4_ARB, Scalar::uint64_, 4, 1},
-};
+using guard::Scalar;
+using guard::ValueType;
 
 // Samplers and images, whose types are many, are set as one int: the unit.
-constexpr UniformType kOpaque{0, Scalar::int_, 1, 1};
+constexpr ValueType kOpaque{0, Scalar::int_, 1, 1};
 
-const UniformType& uniformType(GLenum type) {
-  for (const UniformType& known : kTypes) {
-    if (known.type == type) return known;
-  }
-  return kOpaque;
+const ValueType& uniformType(GLenum type) {
+  const ValueType* known = guard::valueType(type);
+  return known != nullptr ? *known : kOpaque;
 }
 
 using Words = std::array<std::uint32_t, 32>;  // the largest: dmat4
 
-void get(GLuint program, GLint location, const UniformType& type, Words& words) {
+void get(GLuint program, GLint location, const ValueType& type, Words& words) {
   void* into = words.data();
   switch (type.scalar) {
     case Scalar::float_:
@@ -123,7 +63,7 @@ void setMatrix(Setter setter, GLint location, GLsizei count, const void* words) 
   setter(location, count, GL_FALSE, static_cast<const Value*>(words));
 }
 
-void setFloatMatrix(const UniformType& type, GLint location, GLsizei count, const void* words) {
+void setFloatMatrix(const ValueType& type, GLint location, GLsizei count, const void* words) {
   const auto& table = gl();
   const decltype(table.UniformMatrix2fv) setters[3][3] = {
       {table.UniformMatrix2fv, table.UniformMatrix2x3fv, table.UniformMatrix2x4fv},
@@ -132,7 +72,7 @@ void setFloatMatrix(const UniformType& type, GLint location, GLsizei count, cons
   setMatrix<GLfloat>(setters[type.columns - 2][type.rows - 2], location, count, words);
 }
 
-void setDoubleMatrix(const UniformType& type, GLint location, GLsizei count, const void* words) {
+void setDoubleMatrix(const ValueType& type, GLint location, GLsizei count, const void* words) {
   const auto& table = gl();
   const decltype(table.UniformMatrix2dv) setters[3][3] = {
       {table.UniformMatrix2dv, table.UniformMatrix2x3dv, table.UniformMatrix2x4dv},
@@ -142,7 +82,7 @@ void setDoubleMatrix(const UniformType& type, GLint location, GLsizei count, con
 }
 
 // `words`: aligned for 64 bits.
-void set(const UniformType& type, GLint location, GLsizei count, const void* words) {
+void set(const ValueType& type, GLint location, GLsizei count, const void* words) {
   const auto& table = gl();
   const bool matrix = type.columns > 1;
   switch (type.scalar) {
@@ -205,7 +145,7 @@ void copyDefaultBlock(const guard::ContextFacts& facts, GLuint original, GLuint 
       const GLint to = gl().GetUniformLocation(copy, name.c_str());
       if (from < 0 || to < 0) continue;  // built-in, in a block, or not alive in the original
       if (facts.es && guard::isImageType(uniform.type)) continue;  // ES: fixed by the shader's text
-      const UniformType& type = uniformType(uniform.type);
+      const ValueType& type = uniformType(uniform.type);
       alignas(8) Words words{};
       get(original, from, type, words);
       set(type, to, 1, words.data());
@@ -259,7 +199,7 @@ void copyUniforms(const guard::ContextFacts& facts, GLuint original, GLuint copy
 
 std::string setUniforms(GLuint program, const std::vector<std::unique_ptr<wire::UniformValueT>>& values) {
   for (const auto& value : values) {
-    const UniformType& type = uniformType(value->gl_type);
+    const ValueType& type = uniformType(value->gl_type);
     const std::size_t words = static_cast<std::size_t>(type.words());
     if (value->words.empty() || value->words.size() % words != 0) {
       return "the uniform " + value->name + " needs a multiple of " + std::to_string(words) + " words, not " +

@@ -144,17 +144,15 @@ void drawPanel(Canvas& canvas, double x, const PanelSize& size, const ValueImage
                 {11, false, kFaintInk, Align::left});
 }
 
-void drawKeys(Canvas& canvas, double y, const ValueImage& image) {
+void drawKeys(Canvas& canvas, double y, const ValueImage& image, const std::string& each) {
   Components all;
   for (const auto& component : image.components) all.push_back(&component);
   const Survey found = survey(image, all);
   const auto counted = [](std::size_t n, const std::string& what) {
     return readable(static_cast<double>(n), 12) + " " + what;
   };
-  canvas.text(kLeft, y, counted(found.reached, "threads got here"), {11, false, kFaintInk, Align::left});
-  double x = kLeft +
-             canvas.textWidth(counted(found.reached, "threads got here"), {11, false, kInk, Align::left}) +
-             20;
+  canvas.text(kLeft, y, counted(found.reached, each), {11, false, kFaintInk, Align::left});
+  double x = kLeft + canvas.textWidth(counted(found.reached, each), {11, false, kInk, Align::left}) + 20;
   if (found.not_reached > 0)
     x = drawKey(canvas, x, y, kHatchBackground, true, counted(found.not_reached, "did not"));
   if (found.none > 0) x = drawKey(canvas, x, y, kNoThread, false, "no thread of this draw");
@@ -183,7 +181,7 @@ std::string drawValueImage(const ValueImage& image, const ValueImageText& text) 
     drawPanel(canvas, x, size, image, panels[i]);
     if (panels.size() > 1) canvas.text(x, kTop - 8, panel_names[i], {11, true, kFaintInk, Align::left});
   }
-  drawKeys(canvas, kTop + panel_height + 64, image);
+  drawKeys(canvas, kTop + panel_height + 64, image, text.each);
   return canvas.png();
 }
 

@@ -22,8 +22,9 @@ struct ValueImage {
 };
 
 struct ValueImageText {
-  std::string title;     // "dst (vec4)"
-  std::string subtitle;  // "line 43, iteration 100"
+  std::string title;                      // "dst (vec4)"
+  std::string subtitle;                   // "line 43, iteration 100"
+  std::string each = "threads got here";  // what there is a value of
 };
 
 // The picture as a PNG file's bytes. One component: the sequential colour map. Two or three: red, green,
