@@ -25,6 +25,7 @@ Debugger::~Debugger() {
 
 void Debugger::setProgram(Program program) {
   program_ = program;
+  cancelling_ = false;
   Q_EMIT programChanged();
 }
 
@@ -74,6 +75,7 @@ QString drawName(std::uint64_t frame, std::uint64_t draw) {
 void Debugger::start(const ProgramSpec& spec) {
   if (program_ == Program::running) backend_.endProgramNow();
   spec_ = spec;
+  ++listing_;
   draws_.clear();
   listed_.clear();
   fragments_ = {};
@@ -142,6 +144,12 @@ void Debugger::pause() {
   if (program_ == Program::running) backend_.interrupt();
 }
 
+void Debugger::cancel() {
+  if (program_ != Program::running) return backend_.cancel();
+  if (std::exchange(cancelling_, true)) return endProgram();
+  backend_.stopRunning();
+}
+
 void Debugger::setArgument(const QString& name, const QString& value) {
   if (!call_) return;
   backend_.ask(
@@ -168,25 +176,6 @@ void Debugger::nextFrame() {
   if (program_ == Program::stopped) goTo(stop_->draw.stop.frame + 1, stop_->draw.stop.draw);
 }
 
-void Debugger::listFrame(bool thumbnails) {
-  if (program_ != Program::stopped) return;
-  const session::DrawStop here = stop_->draw.stop;
-  leaveStop();
-  setProgram(Program::running);
-  backend_.ask(
-      tr("Listing the draws of frame %1").arg(here.frame), "",
-      [this, thumbnails](Debuggee& debuggee) {
-        return debuggee.listFrame(thumbnails, [this](std::size_t draws) { backend_.reportCount(draws); });
-      },
-      [this, here](FrameList list) {
-        for (const DrawEntry& draw : list.draws) addDraw(draw);
-        list.draws.clear();
-        listed_[list.frame] = std::move(list);
-        Q_EMIT drawsChanged();
-        goTo(here.frame, here.draw);
-      });
-}
-
 void Debugger::runToEnd() {
   if (!canRun()) return;
   leaveStop();
@@ -201,24 +190,12 @@ void Debugger::runToEnd() {
 
 void Debugger::endProgram() {
   if (program_ == Program::none || program_ == Program::ended) return;
+  ++listing_;
   backend_.endProgramNow();
   leaveStop();
   backend_.ask(
       tr("Ending the program"), "", [](Debuggee& debuggee) { debuggee.end(); },
       [this] { setProgram(Program::ended); });
-}
-
-void Debugger::addDraw(const DrawEntry& entry) {
-  const auto key = [](const DrawEntry& one) { return std::pair(one.stop.frame, one.stop.draw); };
-  auto at = std::lower_bound(draws_.begin(), draws_.end(), entry,
-                             [&](const DrawEntry& a, const DrawEntry& b) { return key(a) < key(b); });
-  if (at != draws_.end() && key(*at) == key(entry)) {
-    const QImage before = at->thumbnail;
-    *at = entry;
-    if (at->thumbnail.isNull()) at->thumbnail = before;
-  } else {
-    draws_.insert(at, entry);
-  }
 }
 
 namespace {

@@ -112,10 +112,14 @@ class Debugger : public QObject {
   void logCalls(bool on);
   bool canRun() const { return program_ == Program::stopped || program_ == Program::waiting; }
   void nextFrame();
-  void listFrame(bool thumbnails = false);
+  // From the draw at which the program stands, or where the last list of its frame ended.
+  void listFrame(bool pictures = false);
+  void list(std::uint64_t frame, std::uint64_t first, bool pictures);  // some draws from this one on
   void runToEnd();
   void endProgram();
-  void cancel() { backend_.cancel(); }
+  // Stops what takes long, with what there is until then. A running program waits at its next call; asked
+  // for a second time, it is ended.
+  void cancel();
 
   // ---- in the shader
   void move(Move);
@@ -201,15 +205,18 @@ class Debugger : public QObject {
   void backAlongWay();
   QStringList expressions() const;
   void addDraw(const DrawEntry&);
+  void addList(const FrameList&);
   QByteArray sourceMark() const;
   void resumePlace();
 
   Backend backend_;
   Program program_ = Program::none;
+  bool cancelling_ = false;  // of a running program
   ProgramSpec spec_;
   std::optional<Stop> stop_;
   QList<DrawEntry> draws_;
   QMap<std::uint64_t, FrameList> listed_;  // their draws stand in draws_
+  int listing_ = 0;                        // which list is under way; none of before the program's start
   std::optional<Place> place_;
   std::optional<session::CallStop> call_;
   std::vector<session::LoggedCall> calls_;

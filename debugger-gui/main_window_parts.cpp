@@ -50,7 +50,7 @@ void MainWindow::makeActions() {
        [&] { debugger.nextDraw(); });
   make("next-frame", tr("Next &frame"), tr("Let the program go on to this draw in the next frame"),
        {QKeySequence("F7")}, [&] { debugger.nextFrame(); });
-  make("list", tr("&List the frame"), tr("List all draws of this frame"), {QKeySequence("F8")},
+  make("list", tr("&List the frame"), tr("List the draws of this frame, 10,000 at a time"), {QKeySequence("F8")},
        [&] { debugger.listFrame(); });
   make("to-end", tr("Run to the &end"), tr("Let the program run to its own end"), {QKeySequence("Ctrl+F5")},
        [&] { debugger.runToEnd(); });
@@ -226,9 +226,9 @@ void MainWindow::makeDocks() {
   run->raise();
   tidyTitles();
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
-  resizeDocks({frames, picture}, {220, 450}, Qt::Horizontal);
+  resizeDocks({frames, picture}, {256, 440}, Qt::Horizontal);
   resizeDocks({frames, stack}, {300, 170}, Qt::Vertical);
-  resizeDocks({picture, variables}, {410, 330}, Qt::Vertical);
+  resizeDocks({picture, variables}, {370, 370}, Qt::Vertical);
   resizeDocks({run}, {250}, Qt::Vertical);
 }
 
@@ -241,13 +241,8 @@ void MainWindow::makeStatus() {
   cancel_->hide();
   busy_->hide();
   driver_->setForegroundRole(QPalette::PlaceholderText);
-  connect(cancel_, &QToolButton::clicked, this, [this] {
-    if (debugger_.program() == Debugger::Program::running) {
-      debugger_.endProgram();
-    } else {
-      debugger_.cancel();
-    }
-  });
+  cancel_->setObjectName("cancel");
+  connect(cancel_, &QToolButton::clicked, &debugger_, &Debugger::cancel);
   statusBar()->setSizeGripEnabled(false);
   statusBar()->setContentsMargins(8, 0, 8, 0);
   statusBar()->addWidget(state_);

@@ -19,13 +19,10 @@ Backend::~Backend() {
 
 void Backend::enqueue(const QString& what, const std::string& key,
                       std::function<std::function<void()>()> work) {
-  const auto on_main = [this](std::function<void()> what_to_do) {
-    QMetaObject::invokeMethod(this, std::move(what_to_do), Qt::QueuedConnection);
-  };
   ++outstanding_;
-  const std::size_t dropped = worker_->post(key, [this, what, work = std::move(work), on_main] {
+  const std::size_t dropped = worker_->post(key, [this, what, work = std::move(work)] {
     debuggee_.clearCancel();
-    on_main([this, what] {
+    tell([this, what] {
       current_ = what;
       Q_EMIT started(what);
     });
@@ -39,7 +36,7 @@ void Backend::enqueue(const QString& what, const std::string& key,
       const QString sentence = QString::fromUtf8(error.what());
       deliver = [this, what, sentence] { Q_EMIT failed(what, sentence, session::Outcome::failed); };
     }
-    on_main([this, deliver = std::move(deliver)] {
+    tell([this, deliver = std::move(deliver)] {
       deliver();
       finish();
     });
@@ -68,23 +65,30 @@ void Backend::cancel() {
   debuggee_.cancel();
 }
 
+void Backend::stopRunning() {
+  debuggee_.cancel();
+  debuggee_.interrupt();
+}
+
 void Backend::endProgramNow() {
   outstanding_ -= static_cast<int>(worker_->clear());
   debuggee_.endWait();
 }
 
+void Backend::tell(std::function<void()> what_to_do) {
+  QMetaObject::invokeMethod(this, std::move(what_to_do), Qt::QueuedConnection);
+}
+
 void Backend::report(double share) {
   if (last_report_.elapsed() < kReportEveryMs && share < 1) return;
   last_report_.restart();
-  QMetaObject::invokeMethod(
-      this, [this, share] { Q_EMIT progress(share); }, Qt::QueuedConnection);
+  tell([this, share] { Q_EMIT progress(share); });
 }
 
 void Backend::reportCount(std::size_t done) {
   if (last_report_.elapsed() < kReportEveryMs) return;
   last_report_.restart();
-  QMetaObject::invokeMethod(
-      this, [this, done] { Q_EMIT counted(done); }, Qt::QueuedConnection);
+  tell([this, done] { Q_EMIT counted(done); });
 }
 
 }  // namespace shadestep::gui

@@ -44,9 +44,13 @@ class Backend : public QObject {
   // Forgets what waits; what runs is asked to stop.
   void cancel();
   void interrupt() { debuggee_.interrupt(); }
+  // What runs is asked to stop, and the program with it; what waits stays.
+  void stopRunning();
   // The same, and ends the program where the wait is for it.
   void endProgramNow();
   int process() const { return debuggee_.process(); }
+  // From the worker thread: what to do here.
+  void tell(std::function<void()> what_to_do);
   // Shares done, from the worker thread.
   void report(double share);
   void reportCount(std::size_t done);  // of work whose end is not known

@@ -1,10 +1,10 @@
 #include "debugger-gui/backend/debuggee.h"
 
 #include <signal.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 
+#include "debugger-gui/backend/process_end.h"
 #include "session/window.h"
 
 namespace shadestep::gui {
@@ -28,13 +28,6 @@ std::vector<std::string> namesToExpect(const frontend::Shader& shader) {
       if (is_output == outputs && changes && words > 0 && words <= kLargeWords) names.push_back(one.name);
     }
   return names;
-}
-
-bool hasEnded(int process) {
-  siginfo_t info{};
-  if (process <= 0) return false;
-  return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-         info.si_pid == process;
 }
 
 }  // namespace
@@ -176,17 +169,21 @@ void Debuggee::logCalls(bool on) {
   session_->tellCalls({}, [this](const session::LoggedCall& one) { keep(one); });
 }
 
-FrameList Debuggee::listFrame(bool thumbnails, const std::function<void(std::size_t draws)>& progress) {
-  if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
+FrameList Debuggee::list(const ListRequest& request, const std::function<void(const DrawEntry&)>& seen) {
+  goTo(request.frame, request.first);
   FrameList list;
-  list.frame = stop_ ? stop_->frame : ahead_.first;
-  const auto add = [&] {
-    list.draws.push_back(entry());
-    if (thumbnails) list.draws.back().thumbnail = thumbnail();
-    progress(list.draws.size());
+  list.frame = request.frame;
+  list.first = list.last = request.first;
+  std::size_t listed = 0;
+  const auto see = [&] {
+    DrawEntry draw = entry();
+    if (request.pictures) draw.thumbnail = thumbnail();
+    list.last = draw.stop.draw;
+    ++listed;
+    seen(draw);
   };
-  if (stop_) add();
-  leave();
+  see();
+  ++list.calls[stop_->call];  // it is under way, and not told of
   calls_.clear();
   session_->tellCalls({}, [&](const session::LoggedCall& call) {
     if (call.frame == list.frame) ++list.calls[call.name];
@@ -195,18 +192,25 @@ FrameList Debuggee::listFrame(bool thumbnails, const std::function<void(std::siz
   session::StopCondition condition;
   condition.next_draw = true;
   condition.frame = list.frame + 1;
-  ahead_ = {list.frame + 1, 0};
-  while (!cancelled_) {
+  list.more = true;
+  while (list.more && listed < request.most && !cancelled_) {
+    leave();
     const session::Stop found = session_->runUntil(condition);
     if (found.reason == session::StopReason::ended) {
       end();
+      list.more = false;
       return list;
     }
-    stop_ = found.draw;
-    if (!stop_ || stop_->frame != list.frame) break;
-    add();
+    noteCall();
+    if (found.draw && found.draw->frame == list.frame) {
+      stop_ = found.draw;
+      ahead_ = {stop_->frame, stop_->draw + 1};
+      see();
+    } else {
+      list.more = ahead_.first == list.frame;  // it was interrupted
+      break;
+    }
   }
-  stop_.reset();
   logCalls(log_calls_);
   return list;
 }

@@ -44,9 +44,8 @@ class Debuggee {
   void skipCall();
   // From now on Halt::calls tells of the program's calls, or no longer.
   void logCalls(bool on);
-  // The draws from the present stop to the end of its frame, or of the next one; then the program stands
-  // before the frame after it. With thumbnails every draw is replayed once.
-  FrameList listFrame(bool thumbnails, const std::function<void(std::size_t draws)>& progress);
+  // From that draw on; cancel and interrupt end it early. With pictures every draw is replayed once.
+  FrameList list(const ListRequest&, const std::function<void(const DrawEntry&)>& seen);
   // Lets the program go on to its own end; its exit status.
   int runToEnd();
 

@@ -33,10 +33,18 @@ struct DrawEntry {
   QImage thumbnail;    // of the target after the draw; null: not looked at
 };
 
-// The draws of a frame from some draw on, and how often what was called from there to the frame's end.
+// Which draws to list, and of how many what they leave.
+struct ListRequest {
+  std::uint64_t frame = 0, first = 0;
+  std::size_t most = 0;
+  bool pictures = false;
+};
+
+// Draws of a frame, one after the other, and how often what was called from the first to where the list ends.
 struct FrameList {
-  std::uint64_t frame = 0;
-  std::vector<DrawEntry> draws;
+  std::uint64_t frame = 0, first = 0;
+  std::uint64_t last = 0;  // the last one listed
+  bool more = false;       // the frame goes on behind it, or may do so
   std::map<std::string, std::uint64_t> calls;
 };
 

@@ -1,6 +1,7 @@
 #include "debugger-gui/models/draw_model.h"
 
 #include <QFont>
+#include <algorithm>
 
 #include "debugger-gui/style/icons.h"
 #include "debugger-gui/style/theme.h"
@@ -14,26 +15,47 @@ constexpr quintptr kFrameRow = ~quintptr(0);  // internal id of frames; a draw's
 DrawModel::DrawModel(const Debugger& debugger, QObject* parent)
     : QAbstractItemModel(parent), debugger_(debugger) {}
 
-void DrawModel::refresh() {
+bool DrawModel::refresh() {
   std::vector<Frame> frames;
-  const QList<DrawEntry>& draws = debugger_.draws();
-  for (qsizetype i = 0; i < draws.size(); ++i) {
-    if (frames.empty() || frames.back().number != draws[i].stop.frame)
-      frames.push_back({draws[i].stop.frame, i, 0});
-    ++frames.back().count;
+  for (const DrawEntry& draw : debugger_.draws()) {
+    const std::uint64_t number = draw.stop.frame;
+    if (frames.empty() || frames.back().number != number)
+      frames.push_back({number, debugger_.listed().value(number).more, {}});
+    frames.back().draws.push_back(draw);
   }
-  if (frames != frames_) {
+  const bool grown = std::equal(frames_.begin(), frames_.end(), frames.begin(), frames.end(),
+                                [](const Frame& a, const Frame& b) { return a.grows(b).has_value(); });
+  if (!grown) {
     beginResetModel();
     frames_ = std::move(frames);
-    draws_ = draws;
     endResetModel();
-    return;
+    return true;
   }
-  draws_ = draws;
-  for (int row = 0; row < static_cast<int>(frames_.size()); ++row) {
-    const QModelIndex frame = index(row, 0);
-    Q_EMIT dataChanged(index(0, 0, frame), index(rowCount(frame) - 1, kColumns - 1, frame));
-  }
+  for (int row = 0; row < static_cast<int>(frames.size()); ++row)
+    grow(row, std::move(frames[static_cast<std::size_t>(row)]));
+  return false;
+}
+
+// Draws come in at one place: behind which draw; nothing if `now` is no such successor.
+std::optional<std::size_t> DrawModel::Frame::grows(const Frame& now) const {
+  if (number != now.number || draws.size() > now.draws.size()) return std::nullopt;
+  const auto same = [](const DrawEntry& a, const DrawEntry& b) { return a.stop.draw == b.stop.draw; };
+  const auto behind = std::mismatch(draws.begin(), draws.end(), now.draws.begin(), same).first;
+  const auto rest = draws.end() - behind;
+  if (!std::equal(behind, draws.end(), now.draws.end() - rest, same)) return std::nullopt;
+  return static_cast<std::size_t>(behind - draws.begin());
+}
+
+void DrawModel::grow(int row, Frame&& now) {
+  Frame& frame = frames_[static_cast<std::size_t>(row)];
+  const QModelIndex above = index(row, 0);
+  const auto first = static_cast<int>(*frame.grows(now));
+  const auto added = static_cast<int>(now.draws.size() - frame.draws.size());
+  if (added > 0) beginInsertRows(above, first, first + added - 1);
+  frame = std::move(now);
+  if (added > 0) endInsertRows();
+  Q_EMIT dataChanged(above, above);
+  Q_EMIT dataChanged(index(0, 0, above), index(rowCount(above) - 1, kColumns - 1, above));
 }
 
 QModelIndex DrawModel::index(int row, int column, const QModelIndex& parent) const {
@@ -49,19 +71,19 @@ QModelIndex DrawModel::parent(const QModelIndex& child) const {
 int DrawModel::rowCount(const QModelIndex& parent) const {
   if (!parent.isValid()) return static_cast<int>(frames_.size());
   if (parent.internalId() != kFrameRow || parent.column() > 0) return 0;
-  return static_cast<int>(frames_[static_cast<std::size_t>(parent.row())].count);
+  return static_cast<int>(frames_[static_cast<std::size_t>(parent.row())].draws.size());
 }
 
 const DrawEntry* DrawModel::drawAt(const QModelIndex& index) const {
   if (!index.isValid() || index.internalId() == kFrameRow) return nullptr;
-  return &draws_[frames_[index.internalId()].first + index.row()];
+  return &frames_[index.internalId()].draws[static_cast<std::size_t>(index.row())];
 }
 
 QModelIndex DrawModel::indexOf(std::uint64_t frame, std::uint64_t draw) const {
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     if (frames_[f].number != frame) continue;
-    for (qsizetype i = 0; i < frames_[f].count; ++i)
-      if (draws_[frames_[f].first + i].stop.draw == draw) return createIndex(static_cast<int>(i), 0, f);
+    for (std::size_t i = 0; i < frames_[f].draws.size(); ++i)
+      if (frames_[f].draws[i].stop.draw == draw) return createIndex(static_cast<int>(i), 0, f);
   }
   return {};
 }
@@ -76,9 +98,12 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
   const DrawEntry* entry = drawAt(index);
   if (entry == nullptr) {
     const Frame& frame = frames_[static_cast<std::size_t>(index.row())];
-    if (role == Qt::DisplayRole && index.column() == kDraw)
-      return frame.count == 1 ? tr("Frame %1, one draw seen").arg(frame.number)
-                              : tr("Frame %1, %2 draws seen").arg(frame.number).arg(frame.count);
+    if (role == Qt::DisplayRole && index.column() == kDraw) {
+      const QString seen = frame.draws.size() == 1
+                               ? tr("Frame %1, one draw seen").arg(frame.number)
+                               : tr("Frame %1, %2 draws seen").arg(frame.number).arg(frame.draws.size());
+      return frame.more ? tr("%1, more to list").arg(seen) : seen;
+    }
     if (role == Qt::ForegroundRole) return theme().faint;
     return {};
   }

@@ -13,7 +13,7 @@ class DrawModel : public QAbstractItemModel {
   enum Column { kDraw, kCall, kCount, kProgram, kTarget, kColumns };
 
   explicit DrawModel(const Debugger&, QObject* parent = nullptr);
-  void refresh();
+  bool refresh();  // true: anew; false: rows were added to the frames at most
 
   const DrawEntry* drawAt(const QModelIndex&) const;
   QModelIndex indexOf(std::uint64_t frame, std::uint64_t draw) const;
@@ -28,13 +28,14 @@ class DrawModel : public QAbstractItemModel {
  private:
   struct Frame {
     std::uint64_t number = 0;
-    qsizetype first = 0, count = 0;  // among draws_
-    bool operator==(const Frame&) const = default;
+    bool more = false;  // it has draws that are not listed
+    std::vector<DrawEntry> draws;
+    std::optional<std::size_t> grows(const Frame& now) const;
   };
+  void grow(int row, Frame&& now);
   bool isHere(const DrawEntry&) const;
 
   const Debugger& debugger_;
-  QList<DrawEntry> draws_;
   std::vector<Frame> frames_;
 };
 

@@ -19,8 +19,10 @@ QString text(const std::string& string) {
   return QString::fromStdString(string);
 }
 
+constexpr QChar kNoBreak(0xa0);
+
 QString percent(double share, int digits = 3) {
-  return text(profiler::readable(100 * share, digits)) + " %";
+  return text(profiler::readable(100 * share, digits)) + kNoBreak + "%";
 }
 
 }  // namespace
@@ -108,10 +110,10 @@ void CostPanel::refresh() {
   const profiler::Profile& profile = view->profile;
   const auto cost = [&](double value) {
     const profiler::ScaledUnit unit = profiler::scaledUnit(profile.unit, value);
-    return text(profiler::readable(value * unit.factor) + " " + unit.name);
+    return text(profiler::readable(value * unit.factor)) + kNoBreak + text(unit.name);
   };
   QString summary =
-      tr("%1: median %2, 95 % below %3; %4 of %5 pixels measured, %6 times each, in %7 s; reproducible to %8")
+      tr("%1: median %2, 95 % below %3; %4 of %5 pixels measured, %6 times each, in %7 s; reproducible to %8")
           .arg(text(profiler::methodName(profile.method)), cost(profile.median), cost(profile.p95),
                text(session::withThousands(profile.measured)), text(session::withThousands(profile.covered)))
           .arg(profile.passes)

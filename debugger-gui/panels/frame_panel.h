@@ -18,6 +18,8 @@ class FramePanel : public QWidget {
 
  private:
   void refresh();
+  void showHere();
+  void askPictures();
   void showMenu(const QPoint&);
   const DrawEntry* drawAt(const QModelIndex& shown) const;
 

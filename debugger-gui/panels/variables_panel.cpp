@@ -49,6 +49,7 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   // All that is looked at all the time stands in sight; a name's tooltip says its type.
   tree_->hideColumn(VariableModel::kType);
   tree_->header()->setStretchLastSection(false);
+  tree_->header()->setTextElideMode(Qt::ElideRight);
   tree_->header()->setSectionResizeMode(VariableModel::kValue, QHeaderView::Stretch);
   for (const auto& [column, width] :
        {std::pair{VariableModel::kName, 112}, {VariableModel::kMin, 84}, {VariableModel::kMax, 84}})

@@ -27,11 +27,18 @@ Histogram::Histogram(QWidget* parent) : QWidget(parent) {
 
 void Histogram::show(const LookPtr& look, const QString& name, int component,
                      std::optional<std::size_t> pixel) {
+  const bool was_empty = title_.isEmpty();
+  find(look, name, component, pixel);
+  if (title_.isEmpty() != was_empty) updateGeometry();
+  update();
+}
+
+void Histogram::find(const LookPtr& look, const QString& name, int component,
+                     std::optional<std::size_t> pixel) {
   bins_.clear();
   picked_.reset();
   title_.clear();
   note_ = tr("Choose a variable to see how its values are distributed");
-  update();
   if (!look) return;
   const session::ThreadValues& threads = look->threads;
   const Look::Value* found = look->find(name);
@@ -77,7 +84,7 @@ void Histogram::paintEvent(QPaintEvent*) {
   const int text_height = painter.fontMetrics().height();
   const QRect head(8, 3, width() - 16, text_height);
   if (title_.isEmpty())
-    painter.drawText(rect().adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap, note_);
+    painter.drawText(rect().adjusted(8, 0, -8, 0), Qt::AlignCenter | Qt::TextWordWrap, note_);
   painter.drawText(head, Qt::AlignLeft, title_);
   if (!title_.isEmpty()) painter.drawText(head, Qt::AlignRight, note_);
   if (bins_.empty()) return;

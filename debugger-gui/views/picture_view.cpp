@@ -75,7 +75,13 @@ void PictureView::setMapping(const Mapping& mapping) {
 }
 
 void PictureView::setPicked(std::optional<QPoint> pixel) {
+  const bool moved = picked_ != pixel;
   picked_ = pixel;
+  if (moved && picked_ && inside(*picked_)) {
+    const QPointF at = positionOf(picked_->x(), picked_->y());
+    if (!rect().contains(at.toPoint()))
+      origin_ += QRectF(rect()).center() - at;  // the arrows led out of view
+  }
   update();
 }
 
@@ -348,7 +354,8 @@ void PictureView::fit() {
 }
 
 void PictureView::setScale(double scale) {
-  zoomAround(QRectF(rect()).center(), scale / scale_);
+  const QPointF at = picked_ && inside(*picked_) ? positionOf(picked_->x(), picked_->y()) : QPointF(-1, -1);
+  zoomAround(rect().contains(at.toPoint()) ? at : QRectF(rect()).center(), scale / scale_);
 }
 
 void PictureView::zoomAround(const QPointF& position, double factor) {
@@ -410,8 +417,8 @@ void PictureView::keyPressEvent(QKeyEvent* event) {
     if (inside(next)) Q_EMIT picked(next.x(), next.y());
     return;
   }
-  if (event->key() == Qt::Key_Plus) return zoomAround(QRectF(rect()).center(), 1.25);
-  if (event->key() == Qt::Key_Minus) return zoomAround(QRectF(rect()).center(), 0.8);
+  if (event->key() == Qt::Key_Plus) return setScale(1.25 * scale_);
+  if (event->key() == Qt::Key_Minus) return setScale(0.8 * scale_);
   if (event->key() == Qt::Key_0) return fit();
   QWidget::keyPressEvent(event);
 }

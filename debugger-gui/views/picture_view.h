@@ -30,7 +30,7 @@ class PictureView : public QWidget {
   const Mapping& mapping() const { return mapping_; }
   void setPicked(std::optional<QPoint>);  // x, y as gl_FragCoord counts them
   void fit();
-  void setScale(double);  // screen pixels per pixel, around the middle
+  void setScale(double);  // screen pixels per pixel; the picked one stays where it is, else the middle
   double scale() const { return scale_; }
   const QImage& image() const { return image_; }
   // What a pixel holds, for a person; "" outside.

@@ -29,15 +29,23 @@ class RandomUser {
     disturb();
   }
   void rest() {
-    if (below(3) == 0) window_.settle();  // else the next comes while this one is under way
+    if (below(3) == 0) settle();  // else the next comes while this one is under way
     if (debugger().check() && debugger().check()->compared_at_all) {
       EXPECT_TRUE(debugger().check()->identical());
     }
     if (debugger().program() == Debugger::Program::ended) window_.start(smallRaycaster());
   }
-  void end() { window_.settle(); }
+  void end() { settle(); }
 
  private:
+  // What takes longer is cancelled.
+  void settle() {
+    constexpr int kUserWaitsMs = 3000;
+    auto* const cancel = window_->findChild<QToolButton*>("cancel");
+    for (int i = 0; i < 10 && !QTest::qWaitFor([this] { return debugger().idle(); }, kUserWaitsMs); ++i)
+      cancel->click();
+    window_.settle();
+  }
   Debugger& debugger() { return window_.debugger(); }
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
 

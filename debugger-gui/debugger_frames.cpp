@@ -1,0 +1,99 @@
+// The draws that are known: those visited, and those of the frames that were listed.
+#include <QElapsedTimer>
+#include <algorithm>
+
+#include "debugger-gui/debugger.h"
+
+namespace shadestep::gui {
+
+void Debugger::listFrame(bool pictures) {
+  if (program_ != Program::stopped) return;
+  const session::DrawStop& here = stop_->draw.stop;
+  const auto before = listed_.find(here.frame);
+  const bool goes_on = !pictures && before != listed_.end() && before->more && before->first <= here.draw;
+  list(here.frame, goes_on ? before->last : here.draw, pictures);
+}
+
+void Debugger::list(std::uint64_t frame, std::uint64_t first, bool pictures) {
+  if (program_ != Program::stopped) return;
+  constexpr std::size_t kMostDraws = 10'000, kMostPictures = 100;
+  constexpr qint64 kTellEveryMs = 200;
+  struct Batch {
+    std::vector<DrawEntry> draws;
+    QElapsedTimer age;
+  };
+  const session::DrawStop here = stop_->draw.stop;
+  const ListRequest request{frame, first, pictures ? kMostPictures : kMostDraws, pictures};
+  leaveStop();
+  setProgram(Program::running);
+  // What is seen on the way is shown at once; of a program that has been left meanwhile it is not.
+  const auto tell = [this, which = ++listing_](const std::shared_ptr<Batch>& batch) {
+    backend_.tell([this, which, draws = std::exchange(batch->draws, {})] {
+      if (which != listing_) return;
+      for (const DrawEntry& draw : draws) addDraw(draw);
+      Q_EMIT drawsChanged();
+    });
+    batch->age.start();
+  };
+  backend_.ask(
+      tr("Listing the draws of frame %1").arg(frame), "",
+      [this, request, tell](Debuggee& debuggee) {
+        auto batch = std::make_shared<Batch>();
+        batch->age.start();
+        std::size_t seen = 0;
+        FrameList listed = debuggee.list(request, [&](const DrawEntry& draw) {
+          batch->draws.push_back(draw);
+          backend_.reportCount(++seen);
+          if (batch->age.elapsed() >= kTellEveryMs) tell(batch);
+        });
+        tell(batch);
+        return listed;
+      },
+      [this, here, pictures, which = listing_](const FrameList& list) {
+        if (which != listing_) return;
+        addList(list);
+        Q_EMIT drawsChanged();
+        if (list.more) {
+          Q_EMIT message(pictures
+                             ? tr("Pictures as far as draw %1 of frame %2; scroll on and ask again for more")
+                                   .arg(list.last)
+                                   .arg(list.frame)
+                             : tr("Frame %1 is listed as far as draw %2; list it again for more")
+                                   .arg(list.frame)
+                                   .arg(list.last),
+                         false);
+        }
+        goTo(here.frame, here.draw);
+      });
+}
+
+// A list that goes on where the one before had ended is one with it; one of draws within it says nothing new.
+void Debugger::addList(const FrameList& list) {
+  if (!listed_.contains(list.frame)) {
+    listed_[list.frame] = list;
+    return;
+  }
+  FrameList& known = listed_[list.frame];
+  if (known.more && list.first == known.last) {
+    for (const auto& [name, count] : list.calls) known.calls[name] += count;
+    known.last = list.last;
+    known.more = list.more;
+  } else if (list.first < known.first || list.last > known.last) {
+    known = list;
+  }
+}
+
+void Debugger::addDraw(const DrawEntry& entry) {
+  const auto key = [](const DrawEntry& one) { return std::pair(one.stop.frame, one.stop.draw); };
+  auto at = std::lower_bound(draws_.begin(), draws_.end(), entry,
+                             [&](const DrawEntry& a, const DrawEntry& b) { return key(a) < key(b); });
+  if (at != draws_.end() && key(*at) == key(entry)) {
+    const QImage before = at->thumbnail;
+    *at = entry;
+    if (at->thumbnail.isNull()) at->thumbnail = before;
+  } else {
+    draws_.insert(at, entry);
+  }
+}
+
+}  // namespace shadestep::gui
