@@ -72,13 +72,13 @@ QVariant RunModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::FontRole && index.column() >= kSource) return monospaced();
   if (role == Qt::BackgroundRole && index.row() == here_) return theme().current_line;
   if (role == Qt::ForegroundRole && index.column() < kSource) return theme().faint;
-  if (role == Qt::TextAlignmentRole && index.column() <= kIteration)
+  if (role == Qt::TextAlignmentRole && index.column() < kIteration)
     return int(Qt::AlignRight | Qt::AlignVCenter);
   return {};
 }
 
 QVariant RunModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation == Qt::Horizontal && role == Qt::TextAlignmentRole && section <= kIteration)
+  if (orientation == Qt::Horizontal && role == Qt::TextAlignmentRole && section < kIteration)
     return int(Qt::AlignRight | Qt::AlignVCenter);
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   static const char* const kNames[] = {"Step", "Line", "Iteration", "Source", "What changed"};
