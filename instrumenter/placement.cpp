@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "instrumenter/constructs/loop.h"
+#include "instrumenter/constructs/loop_bounds.h"
 #include "instrumenter/constructs/operators.h"
 #include "instrumenter/constructs/statement.h"
 
@@ -62,10 +63,28 @@ class Placement {
       const int order = all[i].probe.inside == frontend::kNone ? 1 : 2 + placeInside(all[i].probe);
       steps_[{at, order, i}] = [this, &one = all[i], guard] { capture(one, guard); };
     }
+    const bool conditional = std::any_of(all.begin(), all.end(), [this](const Placed& one) {
+      return !one.guard.empty() || !one.numbers.empty() || isForInit(shader_, one.probe.statement);
+    });
+    if (conditional) hideBounds();
     for (const auto& [order, step] : steps_) step();
   }
 
  private:
+  // In all functions, since those with captures become parts of the loops that call them.
+  void hideBounds() {
+    for (std::size_t i = 0; i < shader_.statements.size(); ++i) {
+      const auto id = static_cast<StatementId>(i);
+      if (!mayBeGuessed(shader_, id)) continue;
+      std::vector<CallPaths::Path> paths = paths_.into(shader_.statements[i].function);
+      paths.push_back({});
+      const std::string text = hideBound(conditions_.outcome(id), declareProbe(draft_) + " < 0");
+      steps_[{id, -1, 0}] = [this, id, paths, text] {
+        for (const CallPaths::Path& path : paths) conditions_.putAfter(paths_.edits(path), id, text);
+      };
+    }
+  }
+
   // What is put around a `for`'s init is put around the `for`.
   StatementId outermost(StatementId id) const {
     return isForInit(shader_, id) ? statementAt(shader_, id).parent : id;
@@ -159,7 +178,7 @@ class Placement {
   std::map<CountedLoop, std::string> counters_;
   int firsts_ = 0;
   std::set<frontend::TokenIndex> returned_;  // calls whose buffers are declared
-  // What to register, by statement; there counters (0) before captures (1).
+  // What to register, by statement; there hidden bounds (-1) before counters (0) before captures (1).
   std::map<std::tuple<StatementId, int, std::size_t>, std::function<void()>> steps_;
 };
 
@@ -203,6 +222,12 @@ std::vector<StatementId> numberedLoops(const Shader& shader, const Probe& probe)
   std::vector<StatementId> loops;
   for (const CountedLoop& counted : loopsOnPath(shader, probe)) loops.push_back(counted.loop);
   return loops;
+}
+
+std::string declareProbe(Draft& draft) {
+  const std::string name = draft.name("probe");
+  draft.declare("uniform " + draft.highp() + "int " + name + ";");
+  return name;
 }
 
 void place(Draft& draft, Conditions& conditions, CallPaths& paths, const std::vector<Placed>& probes) {

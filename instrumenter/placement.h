@@ -17,6 +17,9 @@ std::string misplaced(const frontend::Shader&, const Probe&);
 frontend::Type outcomeType(const frontend::Shader&, const Probe&);
 std::string outcomeText(const Draft&, Conditions&, const Probe&);
 
+// The uniform whose value is the number of the probe that captures, from 0; returns its name.
+std::string declareProbe(Draft&);
+
 // What runs at a probe's place, and when.
 struct Placed {
   Probe probe;
@@ -26,7 +29,8 @@ struct Placed {
 };
 
 // Registers the counters and the captures of all probes. Loops are counted once, however many probes number
-// them. Assumes that the probes are not misplaced.
+// them. Assumes that the probes are not misplaced. Captures under a condition hide the bounds of loops
+// (constructs/loop_bounds.h).
 void place(Draft&, Conditions&, CallPaths&, const std::vector<Placed>&);
 
 }  // namespace shadestep::instrumenter

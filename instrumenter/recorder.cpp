@@ -7,6 +7,7 @@
 #include "instrumenter/constructs/fragment_outputs.h"
 #include "instrumenter/constructs/function.h"
 #include "instrumenter/constructs/jump.h"
+#include "instrumenter/constructs/loop_bounds.h"
 #include "instrumenter/constructs/operators.h"
 #include "instrumenter/constructs/statement.h"
 #include "instrumenter/constructs/written_place.h"
@@ -31,17 +32,6 @@ namespace {
 bool isRecordable(const Type& type) {
   const int words = frontend::wordCount(type);
   return words > 0 && words <= kWidestRecorded;
-}
-
-// An `if` in a loop, with a break or return inside.
-bool mayLeaveLoop(const Shader& shader, StatementId id) {
-  if (statementAt(shader, id).kind != StatementKind::if_ || frontend::enclosingLoops(shader, id).empty())
-    return false;
-  const frontend::TokenRange tokens = statementAt(shader, id).tokens;
-  return std::any_of(shader.statements.begin(), shader.statements.end(), [&](const Statement& inner) {
-    const bool leaves = inner.kind == StatementKind::break_ || inner.kind == StatementKind::return_;
-    return leaves && inner.tokens.first > tokens.first && inner.tokens.last <= tokens.last;
-  });
 }
 
 // Memory that other threads write to as well: of a control shader's outputs too each thread has its part.
@@ -141,53 +131,10 @@ void Recorder::recordCondition(StatementId id) {
                  [&](const Item& one) { return one.name != name; });
     items.push_back({name, conditions_.outcome(id), outcomeType(shader_, id)});
   }
-  conditions_.putAfter(draft_.edits, id, record(Event::condition, id, items) + opaque(id));
-}
-
-// Mesa 22.3 guesses how often a loop with an unknown bound runs from the arrays that its body indexes, and
-// then loses what is written where the loop's condition is evaluated. It guesses for plain comparisons only:
-// such a condition gets an operand that is always false, which the compiler does not know.
-std::string Recorder::opaque(StatementId id) const {
-  const Statement& statement = statementAt(shader_, id);
-  if (!isLoop(statement.kind) && !mayLeaveLoop(shader_, id)) return "";
-  const frontend::TokenRange condition = conditionTokens(shader_, id);
-  std::set<std::string> names;
-  for (frontend::TokenIndex i = condition.first; i <= condition.last; ++i) {
-    if (const frontend::TokenIndex behind = behindLength(i, condition); behind > i) {
-      i = behind;
-      continue;
-    }
-    const frontend::Token& token = shader_.tokens[static_cast<std::size_t>(i)];
-    if (token.kind == frontend::TokenKind::identifier && !isConstant(token.text)) names.insert(token.text);
-  }
-  // Loops that the compiler can unroll stay what they are: it may have to.
-  if (names.size() < 2) return "";
-  const std::string outcome = conditions_.outcome(id);
-  return ", " + outcome + " = " + outcome + " || " + draft_.name("invocation") + " < 0";
-}
-
-// The last token of `array.length()` that begins at this one, a number like any other; `i` where none does,
-// or where the array has as many elements as its buffer has room for.
-frontend::TokenIndex Recorder::behindLength(frontend::TokenIndex i, frontend::TokenRange within) const {
-  const auto text = [&](frontend::TokenIndex at) -> const std::string& {
-    return shader_.tokens[static_cast<std::size_t>(at)].text;
-  };
-  const bool in_buffer =
-      std::any_of(shader_.variables.begin(), shader_.variables.end(),
-                  [&](const Variable& one) { return one.storage == Storage::buffer && one.name == text(i); });
-  if (in_buffer) return i;
-  frontend::TokenIndex at = i + 1;
-  while (at + 3 <= within.last && (text(at) == "." || text(at) == "[")) {
-    if (text(at) == "." && text(at + 1) == "length" && text(at + 2) == "(") return at + 3;
-    at = text(at) == "." ? at + 2 : matchingBracket(shader_, at) + 1;
-  }
-  return i;
-}
-
-bool Recorder::isConstant(const std::string& name) const {
-  return std::any_of(shader_.variables.begin(), shader_.variables.end(), [&](const Variable& variable) {
-    return variable.storage == Storage::constant && variable.name == name;
-  });
+  std::string after = record(Event::condition, id, items);
+  if (mayBeGuessed(shader_, id))
+    after += ", " + hideBound(conditions_.outcome(id), draft_.name("invocation") + " < 0");
+  conditions_.putAfter(draft_.edits, id, after);
 }
 
 void Recorder::recordReturn(StatementId id, const std::string& before) {

@@ -35,9 +35,6 @@ class Recorder {
 
   void recordStatement(StatementId);
   void recordCondition(StatementId);
-  std::string opaque(StatementId) const;
-  bool isConstant(const std::string& name) const;
-  frontend::TokenIndex behindLength(frontend::TokenIndex, frontend::TokenRange within) const;
   void recordReturn(StatementId, const std::string& before);
   void recordDeclarators(StatementId);
   void recordInside(StatementId);

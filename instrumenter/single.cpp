@@ -34,8 +34,7 @@ bool mayRepeat(const Shader& shader, const Probe& probe) {
 // have left a loop, what depends on nothing of the iteration before: without a condition, words that a loop
 // captures last would be those of the slowest thread nearby.
 std::string opaqueTruth(Draft& draft) {
-  draft.declare("uniform " + draft.highp() + "int " + draft.name("probe") + ";");
-  return draft.name("probe") + " == 0";
+  return declareProbe(draft) + " == 0";
 }
 
 }  // namespace

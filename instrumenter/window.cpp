@@ -35,7 +35,7 @@ std::string mixedPaths(const Shader& shader, const CallPaths& paths, const std::
   for (const Probe& probe : probes) {
     const frontend::FunctionId function =
         shader.statements[static_cast<std::size_t>(probe.statement)].function;
-    if (probe.call_path.empty() && paths.copied(function))
+    if (probe.call_path.empty() && !paths.into(function).empty())
       return "Any call of '" + functionAt(shader, function).name +
              "' and one certain call of it cannot be looked at by one text; take them one by one.";
   }
@@ -52,9 +52,11 @@ std::string nothing(const Draft& draft, const Attachments& attachments) {
 std::vector<std::string> declareUniforms(Draft& draft, const std::vector<Probe>& probes) {
   std::size_t loops = 0;
   for (const Probe& probe : probes) loops = std::max(loops, probe.iterations.size());
-  std::vector<std::string> names = {draft.name("probe")};
-  for (std::size_t i = 0; i < loops; ++i) names.push_back(draft.name("number" + std::to_string(i)));
-  for (const std::string& name : names) draft.declare("uniform " + draft.highp() + "int " + name + ";");
+  std::vector<std::string> names = {declareProbe(draft)};
+  for (std::size_t i = 0; i < loops; ++i) {
+    names.push_back(draft.name("number" + std::to_string(i)));
+    draft.declare("uniform " + draft.highp() + "int " + names.back() + ";");
+  }
   return names;
 }
 

@@ -44,9 +44,11 @@ CallPaths::CallPaths(Draft& draft, const std::vector<Path>& paths) : draft_(draf
   }
 }
 
-bool CallPaths::copied(FunctionId function) const {
-  return std::any_of(copies_.begin(), copies_.end(),
-                     [function](const auto& copy) { return copy.second.function == function; });
+std::vector<CallPaths::Path> CallPaths::into(FunctionId function) const {
+  std::vector<Path> paths;
+  for (const auto& [path, copy] : copies_)
+    if (copy.function == function) paths.push_back(path);
+  return paths;
 }
 
 std::optional<Failure> CallPaths::insertCopies() {

@@ -36,8 +36,8 @@ class CallPaths {
   // Edits of the function that the calls of a path, or of its first part, lead into.
   Edits& edits(const Path& path) { return path.empty() ? draft_.edits : copies_.at(path).edits; }
 
-  // Is there a copy of this function?
-  bool copied(frontend::FunctionId) const;
+  // The paths that lead into the copies of this function.
+  std::vector<Path> into(frontend::FunctionId) const;
 
   // Inserts the copies with their edits; call it when these are complete.
   std::optional<Failure> insertCopies();

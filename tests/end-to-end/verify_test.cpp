@@ -1,6 +1,8 @@
 // The command verify, on programs whose shaders have loops, discards, several outputs and several draws.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "launch.h"
 
 namespace shadestep::test {
@@ -43,6 +45,54 @@ TEST(Verify, LetsTheProgramRunToItsEndAndTellsItsStatus) {
     EXPECT_EQ(report.at("program_status"), 0) << name;
     EXPECT_GT(report.at("values_compared"), 0) << name;
   }
+}
+
+// Mesa guesses from an array's size how often a loop runs, and loses what is captured beyond (loop_bounds.h).
+TEST(Verify, FindsNothingWrongWithLoopsThatIndexArrays) {
+  const Scratch scratch;
+  std::ofstream(scratch.file("loops.frag")) << R"(#version 330
+in vec2 at;
+out vec4 colour;
+float total(float a[3], int n) {
+  float sum = 0.0;
+  for (int k = 0; k < 10; ++k) {
+    bool last = k >= n;
+    if (last) return sum;
+    sum += a[k];
+  }
+  return -1.0;
+}
+float until(vec4 v, int n) {
+  float sum = 0.0;
+  int k = 0;
+  while (true) {
+    bool last = k >= n;
+    sum += 0.25;
+    if (last) break;
+    sum += v[k];
+    ++k;
+  }
+  return sum;
+}
+void main() {
+  vec4 v = vec4(at, at.yx) * 2.0, w = v * v;
+  float a[3];
+  a[0] = at.x; a[1] = at.y; a[2] = at.x * at.y;
+  int n = int(gl_FragCoord.x) % 4, m = int(gl_FragCoord.y) % 5;
+  float s = total(a, n) + until(w, m);
+  for (int i = 0; i < n; ++i) s += a[i] * 0.5;
+  for (int j = 0; j < m; ++j) {
+    s += w[j];
+    v += s * 0.125;
+  }
+  colour = vec4(s, v.xyz);
+}
+)";
+  const Finished finished =
+      scratch.shadestep({"verify", "--json", "--stage", "fragment"},
+                        {binary("programs/shader-file"), scratch.file("loops.frag"), "8"});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  expectNothingWrong(finished.json());
 }
 
 TEST(Verify, LooksAtEveryStageThatADrawHas) {

@@ -110,6 +110,7 @@ TEST(Recording, HidesOnlyUnknownBounds) {
   };
   EXPECT_TRUE(hides("n"));
   EXPECT_TRUE(hides("n + a.length()"));
+  EXPECT_TRUE(hides("8 && bool(n)"));
   EXPECT_FALSE(hides("8"));
   EXPECT_FALSE(hides("a.length()"));
   EXPECT_FALSE(hides("b[i].length()"));
