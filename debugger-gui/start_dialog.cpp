@@ -7,6 +7,7 @@
 #include <QProcess>
 #include <QPushButton>
 #include <QSettings>
+#include <QStyledItemDelegate>
 #include <QToolButton>
 
 #include "debugger-gui/style/icons.h"
@@ -16,6 +17,36 @@ namespace shadestep::gui {
 namespace {
 constexpr int kRecent = 12;
 constexpr const char* kRecentKey = "recent programs";
+
+ProgramSpec specIn(const QVariant& stored) {
+  const QVariantMap map = stored.toMap();
+  ProgramSpec spec;
+  // Lists of before there was more than the command line hold that alone.
+  spec.command = map.isEmpty() ? QProcess::splitCommand(stored.toString()) : map["command"].toStringList();
+  spec.environment = map["environment"].toStringList();
+  spec.directory = map["directory"].toString();
+  return spec;
+}
+
+QVariant stored(const ProgramSpec& spec) {
+  return QVariantMap{
+      {"command", spec.command}, {"environment", spec.environment}, {"directory", spec.directory}};
+}
+
+// What tells programs of the same command line apart stands behind it in the list, but not in the field.
+class RecentDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    const ProgramSpec spec = specIn(index.data(Qt::UserRole));
+    QStringList around = spec.environment;
+    if (!spec.directory.isEmpty()) around.prepend(tr("in %1").arg(spec.directory));
+    if (!around.isEmpty()) option->text += "    (" + around.join(", ") + ")";
+  }
+};
 }  // namespace
 
 QString commandLine(const QStringList& words) {
@@ -31,16 +62,20 @@ QString commandLine(const QStringList& words) {
 StartDialog::StartDialog(const ProgramSpec& spec, QWidget* parent)
     : QDialog(parent),
       command_(new QComboBox),
-      directory_(new QLineEdit(spec.directory)),
-      environment_(new QPlainTextEdit(spec.environment.join('\n'))),
+      directory_(new QLineEdit),
+      environment_(new QPlainTextEdit),
       frame_(new QSpinBox),
       draw_(new QSpinBox) {
   setWindowTitle(tr("Run a program"));
   command_->setEditable(true);
   command_->setMinimumWidth(460);
   command_->setInsertPolicy(QComboBox::NoInsert);
-  command_->addItems(recent());
-  command_->setCurrentText(spec.command.isEmpty() ? recent().value(0) : commandLine(spec.command));
+  const QList<ProgramSpec> before = recent();
+  for (const ProgramSpec& one : before) command_->addItem(commandLine(one.command), stored(one));
+  command_->setItemDelegate(new RecentDelegate(command_));
+  connect(command_, &QComboBox::activated, this,
+          [this](int chosen) { fill(specIn(command_->itemData(chosen))); });
+  fill(spec.command.isEmpty() ? before.value(0) : spec);
   command_->lineEdit()->setPlaceholderText(tr("program and its arguments, as in a shell"));
   command_->setFont(monospaced());
   directory_->setPlaceholderText(tr("the folder that shadestep was started in"));
@@ -112,16 +147,23 @@ void StartDialog::browse(bool program) {
   dialog->show();
 }
 
-QStringList StartDialog::recent() {
-  return QSettings().value(kRecentKey).toStringList();
+void StartDialog::fill(const ProgramSpec& spec) {
+  command_->setCurrentText(commandLine(spec.command));
+  directory_->setText(spec.directory);
+  environment_->setPlainText(spec.environment.join('\n'));
+}
+
+QList<ProgramSpec> StartDialog::recent() {
+  QList<ProgramSpec> programs;
+  for (const QVariant& one : QSettings().value(kRecentKey).toList()) programs.push_back(specIn(one));
+  return programs;
 }
 
 void StartDialog::remember(const ProgramSpec& spec) {
-  QStringList list = recent();
-  const QString line = commandLine(spec.command);
-  list.removeAll(line);
-  list.prepend(line);
-  QSettings().setValue(kRecentKey, list.mid(0, kRecent));
+  QVariantList list{stored(spec)};
+  for (const ProgramSpec& one : recent())
+    if (stored(one) != list.front() && list.size() < kRecent) list.push_back(stored(one));
+  QSettings().setValue(kRecentKey, list);
 }
 
 }  // namespace shadestep::gui

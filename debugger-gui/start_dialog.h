@@ -17,11 +17,13 @@ class StartDialog : public QDialog {
   explicit StartDialog(const ProgramSpec&, QWidget* parent = nullptr);
   ProgramSpec spec() const;
 
-  static QStringList recent();  // command lines, the last one first
+  // The last one first; each with its arguments, environment and folder.
+  static QList<ProgramSpec> recent();
   static void remember(const ProgramSpec&);
 
  private:
   void browse(bool program);
+  void fill(const ProgramSpec&);
 
   QComboBox* command_;
   QLineEdit* directory_;
