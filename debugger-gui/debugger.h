@@ -113,8 +113,8 @@ class Debugger : public QObject {
   bool canRun() const { return program_ == Program::stopped || program_ == Program::waiting; }
   void nextFrame();
   // From the draw at which the program stands, or where the last list of its frame ended.
-  void listFrame(bool pictures = false);
-  void list(std::uint64_t frame, std::uint64_t first, bool pictures);  // some draws from this one on
+  void listFrame(Listing = Listing::draws);
+  void list(std::uint64_t frame, std::uint64_t first, Listing);  // some draws from this one on
   void runToEnd();
   void endProgram();
   // Stops what takes long, with what there is until then. A running program waits at its next call; asked

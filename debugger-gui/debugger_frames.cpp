@@ -6,24 +6,25 @@
 
 namespace shadestep::gui {
 
-void Debugger::listFrame(bool pictures) {
+void Debugger::listFrame(Listing what) {
   if (program_ != Program::stopped) return;
   const session::DrawStop& here = stop_->draw.stop;
   const auto before = listed_.find(here.frame);
-  const bool goes_on = !pictures && before != listed_.end() && before->more && before->first <= here.draw;
-  list(here.frame, goes_on ? before->last : here.draw, pictures);
+  const bool goes_on =
+      what == Listing::draws && before != listed_.end() && before->more && before->first <= here.draw;
+  list(here.frame, goes_on ? before->last : here.draw, what);
 }
 
-void Debugger::list(std::uint64_t frame, std::uint64_t first, bool pictures) {
+void Debugger::list(std::uint64_t frame, std::uint64_t first, Listing what) {
   if (program_ != Program::stopped) return;
-  constexpr std::size_t kMostDraws = 10'000, kMostPictures = 100;
+  constexpr std::size_t kMostDraws = 10'000, kMostWithMore = 100;
   constexpr qint64 kTellEveryMs = 200;
   struct Batch {
     std::vector<DrawEntry> draws;
     QElapsedTimer age;
   };
   const session::DrawStop here = stop_->draw.stop;
-  const ListRequest request{frame, first, pictures ? kMostPictures : kMostDraws, pictures};
+  const ListRequest request{frame, first, what == Listing::draws ? kMostDraws : kMostWithMore, what};
   leaveStop();
   setProgram(Program::running);
   // What is seen on the way is shown at once; of a program that has been left meanwhile it is not.
@@ -49,19 +50,18 @@ void Debugger::list(std::uint64_t frame, std::uint64_t first, bool pictures) {
         tell(batch);
         return listed;
       },
-      [this, here, pictures, which = listing_](const FrameList& list) {
+      [this, here, what, which = listing_](const FrameList& list) {
         if (which != listing_) return;
         addList(list);
         Q_EMIT drawsChanged();
         if (list.more) {
-          Q_EMIT message(pictures
-                             ? tr("Pictures as far as draw %1 of frame %2; scroll on and ask again for more")
-                                   .arg(list.last)
-                                   .arg(list.frame)
-                             : tr("Frame %1 is listed as far as draw %2; list it again for more")
-                                   .arg(list.frame)
-                                   .arg(list.last),
-                         false);
+          const QString sentence =
+              what == Listing::pictures
+                  ? tr("Pictures as far as draw %2 of frame %1; scroll on and ask again for more")
+              : what == Listing::calls
+                  ? tr("Calls as far as draw %2 of frame %1; ask again behind it for more")
+                  : tr("Frame %1 is listed as far as draw %2; list it again for more");
+          Q_EMIT message(sentence.arg(list.frame).arg(list.last), false);
         }
         goTo(here.frame, here.draw);
       });
@@ -88,9 +88,10 @@ void Debugger::addDraw(const DrawEntry& entry) {
   auto at = std::lower_bound(draws_.begin(), draws_.end(), entry,
                              [&](const DrawEntry& a, const DrawEntry& b) { return key(a) < key(b); });
   if (at != draws_.end() && key(*at) == key(entry)) {
-    const QImage before = at->thumbnail;
+    const DrawEntry before = *at;
     *at = entry;
-    if (at->thumbnail.isNull()) at->thumbnail = before;
+    if (at->thumbnail.isNull()) at->thumbnail = before.thumbnail;
+    if (!at->calls) at->calls = before.calls;
   } else {
     draws_.insert(at, entry);
   }

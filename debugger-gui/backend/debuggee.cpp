@@ -169,52 +169,6 @@ void Debuggee::logCalls(bool on) {
   session_->tellCalls({}, [this](const session::LoggedCall& one) { keep(one); });
 }
 
-FrameList Debuggee::list(const ListRequest& request, const std::function<void(const DrawEntry&)>& seen) {
-  goTo(request.frame, request.first);
-  FrameList list;
-  list.frame = request.frame;
-  list.first = list.last = request.first;
-  std::size_t listed = 0;
-  const auto see = [&] {
-    DrawEntry draw = entry();
-    if (request.pictures) draw.thumbnail = thumbnail();
-    list.last = draw.stop.draw;
-    ++listed;
-    seen(draw);
-  };
-  see();
-  ++list.calls[stop_->call];  // it is under way, and not told of
-  calls_.clear();
-  session_->tellCalls({}, [&](const session::LoggedCall& call) {
-    if (call.frame == list.frame) ++list.calls[call.name];
-    if (log_calls_) keep(call);
-  });
-  session::StopCondition condition;
-  condition.next_draw = true;
-  condition.frame = list.frame + 1;
-  list.more = true;
-  while (list.more && listed < request.most && !cancelled_) {
-    leave();
-    const session::Stop found = session_->runUntil(condition);
-    if (found.reason == session::StopReason::ended) {
-      end();
-      list.more = false;
-      return list;
-    }
-    noteCall();
-    if (found.draw && found.draw->frame == list.frame) {
-      stop_ = found.draw;
-      ahead_ = {stop_->frame, stop_->draw + 1};
-      see();
-    } else {
-      list.more = ahead_.first == list.frame;  // it was interrupted
-      break;
-    }
-  }
-  logCalls(log_calls_);
-  return list;
-}
-
 int Debuggee::runToEnd() {
   if (session_ == nullptr) throw Error(Outcome::usage, "start a program first");
   leave();

@@ -44,7 +44,8 @@ class Debuggee {
   void skipCall();
   // From now on Halt::calls tells of the program's calls, or no longer.
   void logCalls(bool on);
-  // From that draw on; cancel and interrupt end it early. With pictures every draw is replayed once.
+  // From that draw on; cancel and interrupt end it early. With pictures every draw is replayed once. What led
+  // to the draws is told with them as far as it was called behind the first stop.
   FrameList list(const ListRequest&, const std::function<void(const DrawEntry&)>& seen);
   // Lets the program go on to its own end; its exit status.
   int runToEnd();
@@ -87,6 +88,9 @@ class Debuggee {
   Stop stopped(bool restarted);
   void runTo(std::uint64_t frame, std::uint64_t draw);
   void leave();
+  void goBefore(std::uint64_t frame);
+  void goToFrame(std::uint64_t frame);
+  session::StopReason nextOf(std::uint64_t frame);
   void noteCall();
   void keep(const session::LoggedCall&);
   DrawEntry entry();

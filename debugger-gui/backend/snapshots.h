@@ -24,6 +24,13 @@
 #include "session/texture_image.h"
 namespace shadestep::gui {
 
+// What the program called on its way to a draw, from the draw before or the frame's begin on.
+struct DrawCalls {
+  std::vector<session::LoggedCall> calls;
+  std::uint64_t left_out = 0;  // behind those, for they are too many
+};
+using DrawCallsPtr = std::shared_ptr<const DrawCalls>;
+
 // A draw as the frame tree shows it.
 struct DrawEntry {
   session::DrawStop stop;
@@ -31,13 +38,16 @@ struct DrawEntry {
   int viewport[4] = {0, 0, 0, 0};
   std::string reason;  // why none of its shaders can be debugged; empty if one can
   QImage thumbnail;    // of the target after the draw; null: not looked at
+  DrawCallsPtr calls;  // null: not listed, or beyond what a list keeps
 };
 
-// Which draws to list, and of how many what they leave.
+// With each draw what it leaves, or what leads to it: also to the first one, before which the list begins
+// then.
+enum class Listing { draws, pictures, calls };
 struct ListRequest {
   std::uint64_t frame = 0, first = 0;
   std::size_t most = 0;
-  bool pictures = false;
+  Listing what = Listing::draws;
 };
 
 // Draws of a frame, one after the other, and how often what was called from the first to where the list ends.

@@ -2,15 +2,53 @@
 
 #include <QFont>
 #include <algorithm>
+#include <tuple>
 
+#include "debugger-gui/models/call_model.h"
 #include "debugger-gui/style/icons.h"
 #include "debugger-gui/style/theme.h"
 #include "session/text.h"
 
 namespace shadestep::gui {
 namespace {
-constexpr quintptr kFrameRow = ~quintptr(0);  // internal id of frames; a draw's is its frame's row
+// Internal ids: of frames this one, of draws their frame's row, of calls that and their draw's number, which
+// stays what it is when draws come in before it.
+constexpr quintptr kFrameRow = ~quintptr(0);
+constexpr int kFrameBits = 24;
+static_assert(sizeof(quintptr) == 8);
+
+quintptr idOfCalls(quintptr frame, std::uint64_t draw) {
+  return frame | (draw + 1) << kFrameBits;
 }
+quintptr frameOf(quintptr id) {
+  return id & ((quintptr(1) << kFrameBits) - 1);
+}
+bool isCall(quintptr id) {
+  return id != kFrameRow && id >> kFrameBits != 0;
+}
+
+bool sameCalls(const DrawCallsPtr& a, const DrawCallsPtr& b) {
+  if (!a || !b) return a == b;
+  const auto parts = [](const session::LoggedCall& call) {
+    return std::tie(call.name, call.arguments, call.result, call.error);
+  };
+  return a->left_out == b->left_out &&
+         std::equal(a->calls.begin(), a->calls.end(), b->calls.begin(), b->calls.end(),
+                    [&](const auto& one, const auto& other) { return parts(one) == parts(other); });
+}
+
+int rowsUnder(const DrawEntry& draw) {
+  if (!draw.calls) return 1;
+  return static_cast<int>(draw.calls->calls.size()) + (draw.calls->left_out > 0 ? 1 : 0);
+}
+
+QString wholeText(const session::LoggedCall& call) {
+  QString text = callText(call);
+  if (!call.result.empty()) text += " = " + QString::fromStdString(call.result);
+  if (call.error != 0) text += ": " + QString::fromStdString(session::errorName(call.error));
+  return text;
+}
+}  // namespace
 
 DrawModel::DrawModel(const Debugger& debugger, QObject* parent)
     : QAbstractItemModel(parent), debugger_(debugger) {}
@@ -49,6 +87,7 @@ std::optional<std::size_t> DrawModel::Frame::grows(const Frame& now) const {
 void DrawModel::grow(int row, Frame&& now) {
   Frame& frame = frames_[static_cast<std::size_t>(row)];
   const QModelIndex above = index(row, 0);
+  takeCalls(row, now);
   const auto first = static_cast<int>(*frame.grows(now));
   const auto added = static_cast<int>(now.draws.size() - frame.draws.size());
   if (added > 0) beginInsertRows(above, first, first + added - 1);
@@ -58,25 +97,63 @@ void DrawModel::grow(int row, Frame&& now) {
   Q_EMIT dataChanged(index(0, 0, above), index(rowCount(above) - 1, kColumns - 1, above));
 }
 
+// What led to the draws that are there already, where it was not known or is other than before.
+void DrawModel::takeCalls(int row, Frame& now) {
+  Frame& frame = frames_[static_cast<std::size_t>(row)];
+  auto next = now.draws.begin();
+  for (std::size_t i = 0; i < frame.draws.size(); ++i) {
+    DrawEntry& draw = frame.draws[i];
+    while (next->stop.draw != draw.stop.draw) ++next;
+    if (sameCalls(next->calls, draw.calls)) continue;
+    const QModelIndex above = index(static_cast<int>(i), 0, index(row, 0));
+    if (const int rows = rowsUnder(draw); rows > 0) {
+      beginRemoveRows(above, 0, rows - 1);
+      draw.calls = std::make_shared<const DrawCalls>();
+      endRemoveRows();
+    }
+    const int rows = rowsUnder(*next);
+    if (rows > 0) beginInsertRows(above, 0, rows - 1);
+    draw.calls = next->calls;
+    if (rows > 0) endInsertRows();
+  }
+}
+
 QModelIndex DrawModel::index(int row, int column, const QModelIndex& parent) const {
   if (row < 0 || row >= rowCount(parent)) return {};
-  return createIndex(row, column, parent.isValid() ? static_cast<quintptr>(parent.row()) : kFrameRow);
+  if (!parent.isValid()) return createIndex(row, column, kFrameRow);
+  const DrawEntry* draw = drawAt(parent);
+  return createIndex(row, column,
+                     draw == nullptr ? static_cast<quintptr>(parent.row())
+                                     : idOfCalls(parent.internalId(), draw->stop.draw));
 }
 
 QModelIndex DrawModel::parent(const QModelIndex& child) const {
   if (!child.isValid() || child.internalId() == kFrameRow) return {};
-  return createIndex(static_cast<int>(child.internalId()), 0, kFrameRow);
+  const quintptr frame = frameOf(child.internalId());
+  if (const DrawEntry* draw = drawOfCall(child))
+    return createIndex(static_cast<int>(draw - frames_[frame].draws.data()), 0, frame);
+  return createIndex(static_cast<int>(frame), 0, kFrameRow);
 }
 
 int DrawModel::rowCount(const QModelIndex& parent) const {
   if (!parent.isValid()) return static_cast<int>(frames_.size());
-  if (parent.internalId() != kFrameRow || parent.column() > 0) return 0;
+  if (parent.column() > 0 || isCall(parent.internalId())) return 0;
+  if (const DrawEntry* draw = drawAt(parent)) return rowsUnder(*draw);
   return static_cast<int>(frames_[static_cast<std::size_t>(parent.row())].draws.size());
 }
 
 const DrawEntry* DrawModel::drawAt(const QModelIndex& index) const {
-  if (!index.isValid() || index.internalId() == kFrameRow) return nullptr;
+  if (!index.isValid() || index.internalId() == kFrameRow || isCall(index.internalId())) return nullptr;
   return &frames_[index.internalId()].draws[static_cast<std::size_t>(index.row())];
+}
+
+const DrawEntry* DrawModel::drawOfCall(const QModelIndex& index) const {
+  if (!index.isValid() || !isCall(index.internalId())) return nullptr;
+  const std::uint64_t number = (index.internalId() >> kFrameBits) - 1;
+  const auto& draws = frames_[frameOf(index.internalId())].draws;
+  const auto at = std::lower_bound(draws.begin(), draws.end(), number,
+                                   [](const DrawEntry& one, std::uint64_t n) { return one.stop.draw < n; });
+  return at == draws.end() ? nullptr : &*at;
 }
 
 QModelIndex DrawModel::indexOf(std::uint64_t frame, std::uint64_t draw) const {
@@ -93,8 +170,27 @@ bool DrawModel::isHere(const DrawEntry& entry) const {
          debugger_.stop()->draw.stop.draw == entry.stop.draw;
 }
 
+QVariant DrawModel::callData(const DrawEntry& draw, int row, int role) const {
+  const bool known = draw.calls != nullptr;
+  const bool is_call = known && row < static_cast<int>(draw.calls->calls.size());
+  // Drawn across the columns, it makes none of them wider.
+  if (role == Qt::SizeHintRole) return QSize(0, 0);
+  if (role == Qt::ForegroundRole) {
+    const bool is_error = is_call && draw.calls->calls[static_cast<std::size_t>(row)].error != 0;
+    return is_error ? theme().bad : is_call ? theme().text : theme().faint;
+  }
+  if (role == Qt::FontRole && is_call) return monospaced();
+  if (role != Qt::DisplayRole && role != Qt::ToolTipRole && (role != kSearched || !is_call)) return {};
+  if (is_call) return wholeText(draw.calls->calls[static_cast<std::size_t>(row)]);
+  if (known) return tr("%1 more calls, too many to keep").arg(draw.calls->left_out);
+  return tr("Double-click to list the calls before it");
+}
+
 QVariant DrawModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
+  if (const DrawEntry* draw = drawOfCall(index))
+    return index.column() == kDraw ? callData(*draw, index.row(), role) : QVariant();
+  if (role == kSearched) role = Qt::DisplayRole;
   const DrawEntry* entry = drawAt(index);
   if (entry == nullptr) {
     const Frame& frame = frames_[static_cast<std::size_t>(index.row())];

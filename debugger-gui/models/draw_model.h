@@ -1,4 +1,4 @@
-// Frames and their draws, as far as they have been visited.
+// Frames, their draws, as far as they have been visited, and the calls that led to each.
 #pragma once
 
 #include <QAbstractItemModel>
@@ -11,11 +11,14 @@ class DrawModel : public QAbstractItemModel {
   Q_OBJECT
  public:
   enum Column { kDraw, kCall, kCount, kProgram, kTarget, kColumns };
+  static constexpr int kSearched = Qt::UserRole;  // the text, where it is of the program
 
   explicit DrawModel(const Debugger&, QObject* parent = nullptr);
   bool refresh();  // true: anew; false: rows were added to the frames at most
 
   const DrawEntry* drawAt(const QModelIndex&) const;
+  // The draw that it leads to; null for what is no call. Row 0 of a draw whose calls are not known says so.
+  const DrawEntry* drawOfCall(const QModelIndex&) const;
   QModelIndex indexOf(std::uint64_t frame, std::uint64_t draw) const;
 
   QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
@@ -33,6 +36,8 @@ class DrawModel : public QAbstractItemModel {
     std::optional<std::size_t> grows(const Frame& now) const;
   };
   void grow(int row, Frame&& now);
+  void takeCalls(int frame, Frame& now);
+  QVariant callData(const DrawEntry&, int row, int role) const;
   bool isHere(const DrawEntry&) const;
 
   const Debugger& debugger_;

@@ -2,7 +2,6 @@
 // how often what is called in each frame.
 #pragma once
 
-#include <QAbstractTableModel>
 #include <QCheckBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -13,23 +12,9 @@
 #include <QTreeWidget>
 
 #include "debugger-gui/debugger.h"
+#include "debugger-gui/models/call_model.h"
 
 namespace shadestep::gui {
-
-class CallModel : public QAbstractTableModel {
-  Q_OBJECT
- public:
-  using QAbstractTableModel::QAbstractTableModel;
-  void add(const std::vector<session::LoggedCall>&);
-  void clear();
-  int rowCount(const QModelIndex& = {}) const override;
-  int columnCount(const QModelIndex& = {}) const override { return 4; }
-  QVariant data(const QModelIndex&, int role) const override;
-  QVariant headerData(int section, Qt::Orientation, int role) const override;
-
- private:
-  std::vector<session::LoggedCall> calls_;
-};
 
 class CallsPanel : public QWidget {
   Q_OBJECT

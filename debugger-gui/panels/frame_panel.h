@@ -10,24 +10,37 @@
 
 namespace shadestep::gui {
 
+// Calls stand across its columns.
+class DrawTree : public QTreeView {
+ public:
+  using QTreeView::QTreeView;
+
+ protected:
+  void drawRow(QPainter*, const QStyleOptionViewItem&, const QModelIndex&) const override;
+};
+
 class FramePanel : public QWidget {
   Q_OBJECT
  public:
   explicit FramePanel(Debugger&, QWidget* parent = nullptr);
   QTreeView& tree() { return *tree_; }
+  QLineEdit& search() { return *search_; }
 
  private:
   void refresh();
   void showHere();
   void askPictures();
+  void showFound();
+  void activate(const QModelIndex& shown);
   void showMenu(const QPoint&);
   const DrawEntry* drawAt(const QModelIndex& shown) const;
+  const DrawEntry* drawOfCall(const QModelIndex& shown) const;
 
   Debugger& debugger_;
   DrawModel model_;
   QSortFilterProxyModel filter_;
   QLineEdit* search_;
-  QTreeView* tree_;
+  DrawTree* tree_;
   QToolButton* thumbnails_;
 };
 

@@ -82,7 +82,7 @@ TEST(Draw, ListsDrawsWithWhatTheyLeaveAndCountsCalls) {
   const std::string bytes = readFile(file);  // RGBA, 64 x 64, rows bottom up
   Window window;
   window.start({binary("programs/several-draws")});
-  window.debugger().listFrame(true);
+  window.debugger().listFrame(gui::Listing::pictures);
   window.settle();
   ASSERT_EQ(window.debugger().program(), Debugger::Program::stopped) << window.lastMessage().toStdString();
   const auto& draws = window.debugger().draws();

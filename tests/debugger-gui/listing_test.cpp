@@ -28,7 +28,7 @@ void whenSeen(Window& window, QObject& context, What what) {
 TEST(Listing, GoesOnWhereItEnded) {
   Window window;
   window.start(oneLongFrame(250));
-  window.debugger().listFrame(true);
+  window.debugger().listFrame(gui::Listing::pictures);
   window.settle();
   EXPECT_EQ(window.debugger().draws().size(), 100);
   EXPECT_TRUE(window.debugger().listed().value(0).more);
@@ -41,7 +41,7 @@ TEST(Listing, GoesOnWhereItEnded) {
   EXPECT_EQ(whole.calls.at("glDrawElements"), 250U);
   ASSERT_EQ(window.debugger().program(), Debugger::Program::stopped) << window.lastMessage().toStdString();
   EXPECT_EQ(window.debugger().stop()->draw.stop.draw, 0U);
-  window.debugger().list(0, 200, true);
+  window.debugger().list(0, 200, gui::Listing::pictures);
   window.settle();
   EXPECT_FALSE(window.debugger().draws().at(249).thumbnail.isNull());
   EXPECT_TRUE(window.debugger().draws().at(150).thumbnail.isNull());

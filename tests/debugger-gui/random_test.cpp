@@ -154,7 +154,7 @@ class RandomUser {
       case 1:
         return window_->resize(600 + below(1000), 400 + below(600));
       case 2:
-        return debugger().listFrame(below(2) == 0);
+        return debugger().listFrame(static_cast<gui::Listing>(below(3)));
       default:
         return debugger().goTo(static_cast<std::uint64_t>(below(4)), 0);
     }

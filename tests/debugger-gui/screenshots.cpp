@@ -37,7 +37,7 @@ void takeSession(const QString& directory) {
   Window window;
   window->resize(1280, 800);
   window.start(raycaster());
-  window.debugger().listFrame(true);
+  window.debugger().listFrame(gui::Listing::pictures);
   window.settle();
   window.pick(140, 120);
   window.stepTo(40);
