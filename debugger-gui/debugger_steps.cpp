@@ -176,6 +176,7 @@ void Debugger::resume(bool backwards) {
     const auto& position = run_->positions[static_cast<std::size_t>(i)];
     const auto breakpoint = marked.constFind(step.line);
     if (!position || breakpoint == marked.constEnd() || !breakpoint->enabled) continue;
+    if (position->calls_done > 0) continue;  // behind its call: it was come by before it
     if (visits[step.line]++ < breakpoint->ignore) continue;
     if (backwards ? i >= here : i <= here) continue;
     candidates.push_back({*position, breakpoint->condition.trimmed().toStdString()});

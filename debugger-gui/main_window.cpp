@@ -14,6 +14,16 @@
 
 namespace shadestep::gui {
 
+namespace {
+
+// "GLSL 4.50", "GLSL ES 3.20": OpenGL ES says "OpenGL ES GLSL ES 3.20" itself, and some more behind it.
+QString languageOf(const session::DrawFacts& facts) {
+  const QString version = QString::fromStdString(facts.glsl_version);
+  return facts.es ? "GLSL ES " + version.section("ES ", -1).section(' ', 0, 0) : "GLSL " + version;
+}
+
+}  // namespace
+
 MainWindow::MainWindow()
     : sources_(new SourceTabs(debugger_)),
       picture_(new PicturePanel(debugger_)),
@@ -88,7 +98,7 @@ MainWindow::~MainWindow() {
 void MainWindow::connectDebugger() {
   connect(&debugger_, &Debugger::stopChanged, this, [this] {
     if (const auto& stop = debugger_.stop())
-      driver_->setText(QString::fromStdString(stop->facts.renderer + ", GLSL " + stop->facts.glsl_version));
+      driver_->setText(QString::fromStdString(stop->facts.renderer) + ", " + languageOf(stop->facts));
     check_->setCheck(debugger_.check());  // those of the stop before are gone
   });
   connect(&debugger_, &Debugger::valuesChanged, this, [this] { check_->setCheck(debugger_.check()); });

@@ -50,8 +50,8 @@ void MainWindow::makeActions() {
        [&] { debugger.nextDraw(); });
   make("next-frame", tr("Next &frame"), tr("Let the program go on to this draw in the next frame"),
        {QKeySequence("F7")}, [&] { debugger.nextFrame(); });
-  make("list", tr("&List the frame"), tr("List the draws of this frame, 10,000 at a time"), {QKeySequence("F8")},
-       [&] { debugger.listFrame(); });
+  make("list", tr("&List the frame"), tr("List the draws of this frame, 10,000 at a time"),
+       {QKeySequence("F8")}, [&] { debugger.listFrame(); });
   make("to-end", tr("Run to the &end"), tr("Let the program run to its own end"), {QKeySequence("Ctrl+F5")},
        [&] { debugger.runToEnd(); });
 
@@ -87,7 +87,7 @@ void MainWindow::makeActions() {
            debugger_.toggleBreakpoint(view->cursorLine());
        });
   make("breakpoint-if", tr("Breakpoint &with a condition..."),
-       tr("Stop at the cursor only where an expression of the picked thread is true"),
+       tr("Stop at the cursor only where an expression is true, or not the first times"),
        {QKeySequence("Ctrl+F9")}, [this] {
          if (const auto* view = qobject_cast<SourceView*>(sources_->currentWidget()))
            sources_->editBreakpoint(view->cursorLine());

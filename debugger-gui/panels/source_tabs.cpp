@@ -1,8 +1,8 @@
 #include "debugger-gui/panels/source_tabs.h"
 
-#include <QInputDialog>
 #include <QTabBar>
 
+#include "debugger-gui/panels/breakpoint_dialog.h"
 #include "debugger-gui/style/theme.h"
 #include "session/values.h"
 
@@ -158,18 +158,10 @@ QString SourceTabs::describe(const QString& expression) const {
 }
 
 void SourceTabs::editBreakpoint(int line) {
-  const Breakpoint before = debugger_.breakpoints().value(line);
-  auto* dialog = new QInputDialog(this);
+  auto* dialog = new BreakpointDialog(line, debugger_.breakpoints().value(line), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setWindowTitle(tr("Breakpoint at line %1").arg(line));
-  dialog->setLabelText(tr(
-      "Stop the picked thread here only if (an expression, such as: i > 40 && dst.a > 0.9; empty: always)"));
-  dialog->setTextValue(before.condition);
-  connect(dialog, &QInputDialog::textValueSelected, this, [this, line, before](const QString& condition) {
-    Breakpoint after = before;
-    after.condition = condition.trimmed();
-    debugger_.setBreakpoint(line, after);
-  });
+  connect(dialog, &QDialog::accepted, this,
+          [this, dialog, line] { debugger_.setBreakpoint(line, dialog->breakpoint()); });
   dialog->show();
 }
 

@@ -170,9 +170,14 @@ void SourceView::writeMargin(const std::vector<profiler::LineCost>& costs) {
 QString SourceView::macroAt(const QString& name) const {
   const QRegularExpression definition(
       QString(R"(^\s*#\s*define\s+%1\b(.*)$)").arg(QRegularExpression::escape(name)));
-  for (const std::string& line : source_.lines)
-    if (const auto match = definition.match(QString::fromStdString(line)); match.hasMatch())
-      return tr("macro <b>%1</b>&nbsp; %2").arg(name, match.captured(1).trimmed().toHtmlEscaped());
+  for (std::size_t i = 0; i < source_.lines.size(); ++i) {
+    const auto match = definition.match(QString::fromStdString(source_.lines[i]));
+    if (!match.hasMatch()) continue;
+    QString text = match.captured(1).trimmed();
+    while (text.endsWith('\\') && ++i < source_.lines.size())
+      text = text.chopped(1) + QString::fromStdString(source_.lines[i]).simplified();
+    return tr("macro <b>%1</b>&nbsp; %2").arg(name, text.toHtmlEscaped());
+  }
   return {};
 }
 

@@ -117,6 +117,19 @@ TEST(Keyboard, StepsBothWays) {
   EXPECT_EQ(window.debugger().place()->stack.size(), 2U) << "back into the call";
   press(Qt::Key_F11, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_EQ(window.debugger().place()->stack.size(), 1U) << "before it";
+
+  // A breakpoint here, away from it and back, both ways.
+  const session::Position here = window.debugger().place()->position;
+  const int line = window.debugger().place()->line;
+  press(Qt::Key_F9);
+  EXPECT_TRUE(window.debugger().breakpoints().contains(line));
+  ASSERT_NE(press(Qt::Key_F10), here);
+  EXPECT_EQ(press(Qt::Key_F5, Qt::ShiftModifier), here);
+  ASSERT_NE(press(Qt::Key_F10, Qt::ShiftModifier), here);
+  EXPECT_EQ(press(Qt::Key_F5), here);
+  window->source()->setCursorPosition(line - 1, 0);
+  press(Qt::Key_F9);
+  EXPECT_TRUE(window.debugger().breakpoints().isEmpty());
 }
 
 TEST(Keyboard, NoDialogBlocksTheNextStep) {

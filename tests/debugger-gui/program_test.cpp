@@ -6,8 +6,9 @@
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QProcess>
+#include <QRegularExpression>
 #include <QSettings>
-#include <QStandardItemModel>
+#include <QStatusBar>
 
 #include "debugger-gui/start_dialog.h"
 #include "program_window.h"
@@ -67,6 +68,19 @@ TEST_F(Program, OfAnEarlierListIsStillThere) {
   ASSERT_EQ(recent.size(), 2);
   EXPECT_EQ(recent[0].command, QStringList({"/bin/one", "a b"}));
   EXPECT_EQ(recent[1].command, QStringList("/bin/two"));
+}
+
+TEST_F(Program, HasItsLanguageInTheStatusLine) {
+  const auto language = [](const std::string& program) {
+    Window window;
+    window.start({program});
+    QStringList said;
+    for (const QLabel* label : window->statusBar()->findChildren<QLabel*>())
+      if (label->text().contains("GLSL")) said.push_back(label->text().section(", ", -1));
+    return said.join(" | ").replace(QRegularExpression("[0-9]"), "N");
+  };
+  EXPECT_EQ(language(binary("programs/frames")), "GLSL ES N.NN");
+  EXPECT_EQ(language(binary("programs/several-draws")), "GLSL N.NN");
 }
 
 // Between stops and behind the last one it draws what its user asks for, and ends as it does alone.

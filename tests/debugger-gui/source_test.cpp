@@ -5,6 +5,7 @@
 #include <QToolTip>
 #include <fstream>
 
+#include "debugger-gui/panels/breakpoint_dialog.h"
 #include "debugger-gui/panels/loops_panel.h"
 #include "debugger-gui/views/qsci.h"
 #include "window.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr const char* kShader = R"glsl(#version 450
 #define SIDE 16.0
+#define ADD(x) sum += 1.0; \
+               sum += x
 out vec4 colour;
 void main()
 {
@@ -28,9 +31,11 @@ void main()
     else
         sum = 2.0;
     colour += vec4(sum);
+    ADD(p.x);
+    colour.b = sum;
 }
 )glsl";
-constexpr int kSecondLoop = 10, kElse = 15, kLast = 16;
+constexpr int kPosition = 8, kInFirstLoop = 11, kSecondLoop = 12, kElse = 17, kLast = 18, kMacro = 19;
 
 class Source : public testing::Test {
  protected:
@@ -60,17 +65,82 @@ class Source : public testing::Test {
 TEST_F(Source, TheMouseOverANameShowsItsValue) {
   window_.pick(4, 8);
   window_.press("over");
-  ASSERT_EQ(window_.debugger().place()->line, 7);
-  const QString text = tooltip("p = gl", 6);
+  ASSERT_EQ(window_.debugger().place()->line, kPosition + 1);
+  const QString text = tooltip("p = gl", kPosition);
   EXPECT_TRUE(text.contains("vec2")) << text.toStdString();
   EXPECT_TRUE(text.contains("vec2(0.28125, 0.53125)")) << text.toStdString();
-  EXPECT_EQ(tooltip("=", 6), "");
+  EXPECT_EQ(tooltip("=", kPosition), "");
 }
 
 TEST_F(Source, TheMouseOverAMacroShowsWhatItStandsFor) {
-  const QString text = tooltip("SIDE", 6);
+  const QString text = tooltip("SIDE", kPosition);
   EXPECT_TRUE(text.contains("macro")) << text.toStdString();
   EXPECT_TRUE(text.contains("16.0")) << text.toStdString();
+  const QString lines = tooltip("ADD", kMacro);
+  EXPECT_TRUE(lines.contains("(x) sum += 1.0; sum += x")) << lines.toStdString();
+}
+
+// Both statements that it makes stand where it is used.
+TEST_F(Source, AMacroIsSteppedThroughWhereItIsUsed) {
+  window_.pick(4, 8);
+  window_.debugger().toLine(kMacro);
+  window_.settle();
+  const double before = window_.shown("sum").toDouble();
+  for (const double added : {0.0, 1.0}) {
+    ASSERT_EQ(window_.debugger().place()->line, kMacro);
+    EXPECT_EQ(window_->source()->current(), kMacro);
+    EXPECT_DOUBLE_EQ(window_.shown("sum").toDouble(), before + added);
+    window_.press("over");
+  }
+  EXPECT_EQ(window_.debugger().place()->line, kMacro + 1);
+  EXPECT_DOUBLE_EQ(window_.shown("sum").toDouble(), before + 1 + 4.5 / 16);
+}
+
+// By the dialog, as its user fills it in.
+TEST_F(Source, ABreakpointPassesByTheFirstVisits) {
+  window_.pick(4, 8);
+  const auto edit = [&](const QString& condition, int passed) {
+    window_->source()->setCursorPosition(kInFirstLoop - 1, 0);
+    window_.press("breakpoint-if");
+    auto* dialog = window_->findChild<gui::BreakpointDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    dialog->findChild<QLineEdit*>()->setText(condition);
+    dialog->findChild<QSpinBox*>()->setValue(passed);
+    dialog->accept();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window_->findChild<gui::BreakpointDialog*>() == nullptr; }));
+  };
+  edit("", 3);
+  window_.press("run");
+  EXPECT_EQ(window_.debugger().place()->line, kInFirstLoop);
+  EXPECT_EQ(window_.shown("i"), "3");
+  edit("i != 3", 3);
+  window_.press("restart");
+  window_.press("run");
+  EXPECT_EQ(window_.shown("i"), "4");
+  window_.press("run-back");
+  EXPECT_EQ(window_.shown("i"), "4") << "the third is the first, and left out";
+}
+
+TEST_F(Source, TheMarginSaysHowOftenLinesRunAndWhatTheyCost) {
+  const auto margin = [&](int line) {
+    const gui::SourceView* view = window_->source();
+    const auto row = static_cast<unsigned long>(line - 1);
+    QByteArray text(static_cast<int>(view->SendScintilla(QsciScintilla::SCI_MARGINGETTEXT, row)), '\0');
+    view->SendScintilla(QsciScintilla::SCI_MARGINGETTEXT, row, text.data());
+    return QString::fromUtf8(text).simplified();
+  };
+  EXPECT_EQ(margin(kInFirstLoop), "");
+  window_.debugger().askProfile({"count", 5, {}});
+  window_.settle();
+  ASSERT_TRUE(window_.debugger().profile()) << window_.lastMessage().toStdString();
+  const int threads = 16 * 16;
+  EXPECT_EQ(margin(kPosition).section(' ', 0, 0), QString::number(threads));
+  EXPECT_EQ(margin(kInFirstLoop).section(' ', 0, 0), QString::number(5 * threads));
+  EXPECT_EQ(margin(kElse).section(' ', 0, 0), QString::number(threads / 2));
+  EXPECT_TRUE(margin(kInFirstLoop).endsWith('%')) << margin(kInFirstLoop).toStdString();
+  EXPECT_EQ(margin(2), "");
+  window_.start(smallRaycaster());
+  EXPECT_EQ(margin(kInFirstLoop), "") << "of another shader";
 }
 
 // Each thread has written what is on its own way.
