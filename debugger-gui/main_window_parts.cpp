@@ -226,7 +226,7 @@ void MainWindow::makeDocks() {
   run->raise();
   tidyTitles();
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
-  resizeDocks({frames, picture}, {256, 440}, Qt::Horizontal);
+  resizeDocks({frames, picture}, {312, 430}, Qt::Horizontal);
   resizeDocks({frames, stack}, {300, 170}, Qt::Vertical);
   resizeDocks({picture, variables}, {370, 370}, Qt::Vertical);
   resizeDocks({run}, {250}, Qt::Vertical);

@@ -212,7 +212,10 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
       case kCount: {
         QString text = entry->stop.count < 0 ? QString("?") : QString::number(entry->stop.count);
         if (entry->stop.mode != 0xffffffffU)
-          text += " " + QString::fromStdString(session::primitiveModeName(entry->stop.mode)).mid(3).toLower();
+          text += " " + QString::fromStdString(session::primitiveModeName(entry->stop.mode))
+                            .mid(3)
+                            .toLower()
+                            .replace('_', ' ');
         if (entry->stop.instances >= 0 && entry->stop.instances != 1)
           text += QString(" × %1").arg(entry->stop.instances);
         return text;

@@ -117,7 +117,7 @@ void FramePanel::refresh() {
   const QList<DrawEntry>& draws = debugger_.draws();
   const bool pictures =
       std::any_of(draws.begin(), draws.end(), [](const auto& one) { return !one.thumbnail.isNull(); });
-  tree_->setIconSize(pictures ? QSize(40, 30) : QSize(16, 16));
+  tree_->setIconSize(pictures ? QSize(32, 24) : QSize(16, 16));
   thumbnails_->setEnabled(debugger_.program() == Debugger::Program::stopped);
   for (int frame = 0; frame < filter_.rowCount(); ++frame) {
     if (rebuilt) tree_->setExpanded(filter_.index(frame, 0), true);

@@ -138,7 +138,8 @@ void RunPanel::refresh() {
     return summary_->setText(debugger_.runReason().isEmpty() ? tr("No recording of %1 yet").arg(name)
                                                              : debugger_.runReason());
   }
-  QString text = tr("%1: %2 steps").arg(name).arg(run->run.steps.size());
+  QString text = run->run.steps.size() == 1 ? tr("%1: one step").arg(name)
+                                            : tr("%1: %2 steps").arg(name).arg(run->run.steps.size());
   if (run->run.hits > 1)
     text += tr("; fragment %1 of %2 on the pixel, %3")
                 .arg(run->run.hit)

@@ -1,6 +1,7 @@
 #include "debugger-gui/views/check_badge.h"
 
-#include <QHBoxLayout>
+#include <QPainter>
+#include <algorithm>
 
 #include "debugger-gui/style/icons.h"
 #include "debugger-gui/style/theme.h"
@@ -8,13 +9,34 @@
 
 namespace shadestep::gui {
 
-CheckBadge::CheckBadge(QWidget* parent) : QWidget(parent), icon_(new QLabel), text_(new QLabel) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(4, 0, 4, 0);
-  row->setSpacing(4);
-  row->addWidget(icon_);
-  row->addWidget(text_);
+constexpr int kMargin = 4, kMark = 16;
+constexpr int kRoundedAway = 2;  // widths of texts are told in whole pixels
+
+CheckBadge::CheckBadge(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setCheck(std::nullopt);
+}
+
+int CheckBadge::widthOf(int of_text) const {
+  return kMargin + kMark + kMargin + of_text + kRoundedAway + kMargin;
+}
+
+QSize CheckBadge::sizeHint() const {
+  return {widthOf(fontMetrics().horizontalAdvance(text_)), std::max(kMark, fontMetrics().height())};
+}
+
+QSize CheckBadge::minimumSizeHint() const {
+  const int shortest = fontMetrics().horizontalAdvance(tr("not compared"));
+  return {std::min(sizeHint().width(), widthOf(shortest)), sizeHint().height()};
+}
+
+void CheckBadge::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.drawPixmap(QRect(kMargin, (height() - kMark) / 2, kMark, kMark), mark_);
+  painter.setPen(color_);
+  const QRect rest = rect().adjusted(kMargin + kMark + kMargin, 0, -kMargin, 0);
+  painter.drawText(rest, Qt::AlignLeft | Qt::AlignVCenter,
+                   fontMetrics().elidedText(text_, Qt::ElideRight, rest.width()));
 }
 
 void CheckBadge::setCheck(const std::optional<session::Check>& check) {
@@ -40,11 +62,11 @@ void CheckBadge::setCheck(const std::optional<session::Check>& check) {
     }
     if (!check->left_out.empty()) text += " *";
   }
-  icon_->setPixmap(icon(name).pixmap(QSize(16, 16), devicePixelRatio()));
-  text_->setText(text);
-  QPalette palette = text_->palette();
-  palette.setColor(QPalette::WindowText, color);
-  text_->setPalette(palette);
+  mark_ = icon(name).pixmap(QSize(kMark, kMark), devicePixelRatio());
+  text_ = text;
+  color_ = color;
+  updateGeometry();
+  update();
   setToolTip(tip);
   setAccessibleName(tr("Check: %1").arg(text));
 }

@@ -14,11 +14,19 @@ class CheckBadge : public QWidget {
  public:
   explicit CheckBadge(QWidget* parent = nullptr);
   void setCheck(const std::optional<session::Check>&);
-  QString text() const { return text_->text(); }
+  QString text() const { return text_; }
+
+ protected:
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;  // a long text is cut, and whole in the tooltip
+  void paintEvent(QPaintEvent*) override;
 
  private:
-  QLabel* icon_;
-  QLabel* text_;
+  int widthOf(int of_text) const;
+
+  QPixmap mark_;
+  QString text_;
+  QColor color_;
 };
 
 }  // namespace shadestep::gui

@@ -25,6 +25,14 @@ QColor colorOfEarlier(std::size_t i) {
                           static_cast<float>(color.b));
 }
 
+constexpr double kLeft = 64, kRight = 14, kFirstLine = 8, kToText = 19;
+
+QFont smallFont(const QWidget& widget) {
+  QFont small = widget.font();
+  small.setPointSizeF(small.pointSizeF() - 1);
+  return small;
+}
+
 QString grouped(std::uint64_t number) {
   return QString::fromStdString(session::withThousands(number));
 }
@@ -43,8 +51,25 @@ void LoopCurves::show(std::optional<LoopCurve> now, std::vector<LoopCurve> befor
   update();
 }
 
+std::vector<LoopCurves::Key> LoopCurves::keys() const {
+  std::vector<Key> keys{{theme().accent, tr("active threads"), {}}, {theme().left, tr("leaving"), {}}};
+  for (std::size_t i = 0; i < before_.size(); ++i) keys.push_back({colorOfEarlier(i), before_[i].name, {}});
+  const QFontMetrics metrics(smallFont(*this));
+  const double most = width() - kLeft - kRight - kToText;
+  QPointF next(kLeft, kFirstLine);
+  for (Key& key : keys) {
+    key.text = metrics.elidedText(key.text, Qt::ElideMiddle, static_cast<int>(most));
+    const double wide = kToText + metrics.horizontalAdvance(key.text);
+    if (next.x() > kLeft && next.x() + wide > width() - kRight)
+      next = QPointF(kLeft, next.y() + metrics.height());
+    key.at = next;
+    next.rx() += wide + 11;
+  }
+  return keys;
+}
+
 QRectF LoopCurves::plot() const {
-  return QRectF(rect()).adjusted(64, 22, -14, -22);
+  return QRectF(rect()).adjusted(kLeft, keys().back().at.y() + 12, -kRight, -22);
 }
 
 std::size_t LoopCurves::iterations() const {
@@ -57,9 +82,7 @@ void LoopCurves::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.fillRect(rect(), theme().panel);
-  QFont small = font();
-  small.setPointSizeF(small.pointSizeF() - 1);
-  painter.setFont(small);
+  painter.setFont(smallFont(*this));
   const std::size_t count = iterations();
   if (count == 0) {
     painter.setPen(theme().faint);
@@ -121,14 +144,10 @@ void LoopCurves::paintEvent(QPaintEvent*) {
   }
   if (now_) curves(*now_, theme().accent, leaving, false);
   painter.setPen(theme().text);
-  const auto key = [&](double left, const QColor& color, const QString& text) {
-    painter.fillRect(QRectF(left, 8, 14, 4), color);
-    painter.drawText(QPointF(left + 19, 14), text);
-    return left + 30 + painter.fontMetrics().horizontalAdvance(text);
-  };
-  double next = key(area.left(), theme().accent, tr("active threads"));
-  next = key(next, theme().left, tr("leaving"));
-  for (std::size_t i = 0; i < before_.size(); ++i) next = key(next, colorOfEarlier(i), before_[i].name);
+  for (const Key& key : keys()) {
+    painter.fillRect(QRectF(key.at, QSizeF(14, 4)), key.color);
+    painter.drawText(key.at + QPointF(kToText, 6), key.text);
+  }
   painter.setPen(theme().faint);
   painter.drawLine(area.bottomLeft(), area.bottomRight());
 }

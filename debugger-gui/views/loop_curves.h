@@ -21,6 +21,15 @@ class LoopCurves : public QWidget {
   void show(std::optional<LoopCurve> now, std::vector<LoopCurve> before);
   const std::optional<LoopCurve>& now() const { return now_; }
   const std::vector<LoopCurve>& before() const { return before_; }
+
+  // What the colours mean, and where that stands: line below line, above the plot.
+  struct Key {
+    QColor color;
+    QString text;
+    QPointF at;
+  };
+  std::vector<Key> keys() const;
+  QRectF plot() const;
   QSize sizeHint() const override { return {420, 180}; }
 
  protected:
@@ -28,7 +37,6 @@ class LoopCurves : public QWidget {
   void mouseMoveEvent(QMouseEvent*) override;
 
  private:
-  QRectF plot() const;
   std::size_t iterations() const;
 
   std::optional<LoopCurve> now_;

@@ -22,6 +22,20 @@ constexpr double kLargestScale = 160;
 constexpr double kValuesFrom = 34;  // screen pixels per pixel: values are printed, if they can be read
 constexpr double kGridFrom = 8;
 
+// What is not finite is striped in its colour, which others might have too: such pixels are told by their
+// alpha.
+constexpr int kAlphaOfNan = 0xfe, kAlphaOfInfinite = 0xfd;
+QRgb withAlpha(const QColor& color, int alpha) {
+  return qRgba(color.red(), color.green(), color.blue(), alpha);
+}
+QRgb striped(QRgb color, int x, int y) {
+  constexpr int kPeriod = 6, kWide = 2, kDarker = 130;  // percent
+  const bool is_nan = qAlpha(color) == kAlphaOfNan;
+  if (!is_nan && qAlpha(color) != kAlphaOfInfinite) return color;
+  const bool on_stripe = (is_nan ? x + y : y) % kPeriod < kWide;
+  return on_stripe ? QColor::fromRgb(color).darker(kDarker).rgb() : color;
+}
+
 QRgb packed(const profiler::Color& color) {
   const auto byte = [](double v) { return static_cast<int>(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
   return qRgb(byte(color.r), byte(color.g), byte(color.b));
@@ -155,11 +169,15 @@ void PictureView::render() {
   const auto rounded = [](double number) { return static_cast<std::size_t>(number + 0.5); };
   const Channels channels = channelsShown();
   const Table& table = tableFor(picture_->scale);
-  const QRgb nan = theme().nan.rgb();
-  const QRgb infinite = theme().infinite.rgb();
+  const QRgb nan = withAlpha(theme().nan, kAlphaOfNan);
+  const QRgb infinite = withAlpha(theme().infinite, kAlphaOfInfinite);
+  striped_ = false;
   const auto color = [&](const float* values) -> QRgb {
     for (std::size_t c = channels.first; c < channels.end; ++c)
-      if (!std::isfinite(values[c])) return std::isnan(values[c]) ? nan : infinite;
+      if (!std::isfinite(values[c])) {
+        striped_ = true;
+        return std::isnan(values[c]) ? nan : infinite;
+      }
     if (channels.end == channels.first + 1)
       return table[rounded(position(values[channels.first]) * static_cast<double>(table.size() - 1))];
     int rgb[3] = {0, 0, 0};
@@ -259,7 +277,7 @@ void PictureView::paintByRows(QPainter& painter, const QRectF& visible) {
     const int row = sourceOf(area.top() + y, origin_.y() * ratio, image_.height());
     const bool line = grid && row != above;
     auto* const to = reinterpret_cast<QRgb*>(seen_.scanLine(y));
-    same = !hatched_ && !line && row == above && same;
+    same = !hatched_ && !striped_ && !line && row == above && same;
     if (same) {
       std::copy_n(reinterpret_cast<const QRgb*>(seen_.constScanLine(y - 1)), columns.size(), to);
     } else {
@@ -270,6 +288,7 @@ void PictureView::paintByRows(QPainter& painter, const QRectF& visible) {
         QRgb color = from[columns[x]];
         if (stripe != nullptr && qAlpha(color) == 0)
           color = stripe[x % static_cast<std::size_t>(hatch.width())];
+        if (striped_) color = striped(color, static_cast<int>(x), y);
         const bool beside = grid && x > 0 && columns[x] != columns[x - 1];
         to[x] = line || beside ? lined(color) : color;
       }

@@ -80,6 +80,7 @@ class PictureView : public QWidget {
   QPointF origin_;  // of the picture's upper left corner on the widget
   bool fitted_ = true;
   bool hatched_ = false;  // some pixel's thread is not here
+  bool striped_ = false;  // some pixel is not finite
   QTimer smooth_later_;   // while it runs, the picture is being enlarged: quick before smooth
   std::optional<QPoint> picked_;
   std::optional<QPointF> dragged_from_;

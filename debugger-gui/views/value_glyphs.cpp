@@ -17,6 +17,16 @@ quint32 ValueGlyphs::glyphOf(QChar character) {
   return *glyphs_.insert(character, found.isEmpty() ? 0 : found.front());
 }
 
+QString ValueGlyphs::shortened(const QString& text, qsizetype fits) {
+  constexpr QChar kCut(0x2026);
+  if (text.size() <= fits) return text;
+  const qsizetype exponent = text.lastIndexOf('e');
+  const bool is_number = exponent > 0 && text[exponent - 1].isDigit();
+  const QString end = is_number ? text.mid(exponent) : QString();
+  if (end.size() >= fits) return QString(fits, kCut);
+  return text.left(fits - end.size() - 1) + kCut + end;
+}
+
 void ValueGlyphs::add(const QRectF& cell, const QStringList& lines, bool on_dark) {
   constexpr double kMargin = 3;
   if (advance_ <= 0) return;
@@ -26,12 +36,12 @@ void ValueGlyphs::add(const QRectF& cell, const QStringList& lines, bool on_dark
   const double line_height = std::ceil(font_.ascent() + font_.descent());
   double baseline = cell.center().y() - line_height * static_cast<double>(lines.size()) / 2 + font_.ascent();
   for (const QString& line : lines) {
-    const bool cut = line.size() > fits;
-    const qsizetype shown = std::min(line.size(), fits);
-    double x = std::round(cell.center().x() - advance_ * static_cast<double>(shown) / 2);
-    for (qsizetype i = 0; i < shown; ++i, x += advance_) {
-      run.glyphs.push_back(glyphOf(cut && i + 1 == shown ? QChar(0x2026) : line[i]));
+    const QString shown = shortened(line, fits);
+    double x = std::round(cell.center().x() - advance_ * static_cast<double>(shown.size()) / 2);
+    for (const QChar character : shown) {
+      run.glyphs.push_back(glyphOf(character));
       run.positions.push_back({x, std::round(baseline)});
+      x += advance_;
     }
     baseline += line_height;
   }

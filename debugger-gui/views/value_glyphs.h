@@ -15,6 +15,9 @@ class ValueGlyphs {
  public:
   explicit ValueGlyphs(const QFont& monospaced);
   // Lines in the middle of a cell; what is wider than it is cut, and ends in "…".
+  // At most so many characters; a number keeps its exponent, without which it would be another one.
+  static QString shortened(const QString&, qsizetype fits);
+
   void add(const QRectF& cell, const QStringList& lines, bool on_dark);
   void paint(QPainter&) const;
 
