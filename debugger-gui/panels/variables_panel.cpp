@@ -124,21 +124,26 @@ void VariablesPanel::showMenu(const QPoint& position) {
       menu.addAction(tr("Watch"), this, [this, target] { debugger_.addWatch(target.expression); });
     }
     menu.addSeparator();
-    menu.addAction(tr("Copy"), this,
-                   [this, index] { QApplication::clipboard()->setText(model_.textOf(index)); });
+    menu.addAction(tr("Copy"), this, [this, index] { copy(index); });
     menu.addAction(tr("Export %1 of all threads...").arg(target.variable), this,
                    [this, target] { exportCsv(target.variable); });
   }
-  menu.addAction(tr("Copy all"), this, [this] {
-    QStringList lines;
-    for (int group = 0; group < model_.rowCount(); ++group) {
-      const QModelIndex parent = model_.index(group, 0);
-      for (int row = 0; row < model_.rowCount(parent); ++row)
-        lines.push_back(model_.textOf(model_.index(row, 0, parent)));
-    }
-    QApplication::clipboard()->setText(lines.join('\n'));
-  });
+  menu.addAction(tr("Copy all"), this, &VariablesPanel::copyAll);
   menu.exec(tree_->viewport()->mapToGlobal(position));
+}
+
+void VariablesPanel::copy(const QModelIndex& index) {
+  QApplication::clipboard()->setText(model_.textOf(index));
+}
+
+void VariablesPanel::copyAll() {
+  QStringList lines;
+  for (int group = 0; group < model_.rowCount(); ++group) {
+    const QModelIndex parent = model_.index(group, 0);
+    for (int row = 0; row < model_.rowCount(parent); ++row)
+      lines.push_back(model_.textOf(model_.index(row, 0, parent)));
+  }
+  QApplication::clipboard()->setText(lines.join('\n'));
 }
 
 void VariablesPanel::exportCsv(const QString& expression) {

@@ -16,13 +16,15 @@ class VariablesPanel : public QWidget {
  public:
   explicit VariablesPanel(Debugger&, QWidget* parent = nullptr);
   VariableModel& model() { return model_; }
+  void exportCsv(const QString& expression);  // of all threads; asks where to
+  void copy(const QModelIndex&);
+  void copyAll();
   QTreeView& tree() { return *tree_; }
 
  private:
   void refresh();
   void showDistribution();
   void showMenu(const QPoint&);
-  void exportCsv(const QString& expression);
 
   Debugger& debugger_;
   VariableModel model_;
