@@ -29,6 +29,11 @@ class Dialect:
         return self._from(430, 310)
 
     @property
+    def dynamic_loops(self) -> bool:
+        """Loops whose bounds are no constants, and indices that are none."""
+        return self._from(110, 300)
+
+    @property
     def doubles(self) -> bool:
         return self._from(400)
 

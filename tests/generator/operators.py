@@ -82,15 +82,14 @@ class Operators:
         return [INT64, UINT64] if self.dialect.int64 else []
 
     def wide_op(self, type_: Type, ctx: Context) -> E | None:
-        op = self.random.choice(["+", "-", "*", "/", "&", "|", "^", "<<", ">>", "~", "min", "max", "conv"])
+        # No min, no max: Mesa 22.3 folds those of 64-bit constants to 0.
+        op = self.random.choice(["+", "-", "*", "/", "&", "|", "^", "<<", ">>", "~", "conv"])
         if op == "conv":
             if not type_.is_scalar():
                 return None
             return self.convert(self.expression(self.random.choice([INT, UINT, BOOL]), ctx.deeper()), type_)
         if op == "~":
             return E("un", type_, [self.expression(type_, ctx.deeper())], "~")
-        if op in ("min", "max"):
-            return E("builtin", type_, list(self.operands(type_, ctx, False)), op)
         if op in ("<<", ">>"):
             return E("bin", type_, [self.expression(type_, ctx.deeper()), lit(INT, self.random.randint(0, 63))], op)
         if op == "/":

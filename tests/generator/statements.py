@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from expressions import Expressions
 from operands import REST, Context, lit, var
-from tree import BOOL, E, FLOAT, INT, UINT, VOID, S, Type, Variable
+from tree import BOOL, E, FLOAT, INT, UINT, VOID, S, Type, Variable, vec
 
 
 class Statements(Expressions):
@@ -45,7 +45,7 @@ class Statements(Expressions):
         ways = [(self.expression_statement, 10), (self.declaration, 0 if single else 7), (self.memory, 2),
                 (self.jump, 3), (lambda: [S("empty")], 0.4), (self.both, 0.5)]
         if nested:
-            ways += [(self.if_, 5), (self.loop, 4), (lambda: [self.block()], 1)]
+            ways += [(self.if_, 5), (self.loop, 4), (self.elements, 2), (lambda: [self.block()], 1)]
             if self.dialect.integers:
                 ways.append((self.switch, 2))
         way = r.choices([w for w, _ in ways], [weight for _, weight in ways])[0]
@@ -266,6 +266,49 @@ class Statements(Expressions):
         body = self.body()
         self.scopes.pop()
         return [S("for", [going, step], [init, body])]
+
+    def elements(self) -> list[S]:
+        """A loop over as many elements as a value says that the compiler does not know, all of them at most."""
+        r = self.random
+        if not self.dialect.dynamic_loops:
+            return []
+        n = r.choice([2, 3, 3, 4])
+        of = self.declare(Variable(self.name(), r.choice([vec("float", n), Type("float", dims=(n,))]), "local", REST))
+        of.ready = False
+        made = [S("decl", [None], data=[(of, 0)])] + self.fill(var(of), of.type, REST)
+        of.ready = True
+        many = self.counter((0, n))
+        where = E("ctor", INT, [E("swizzle", FLOAT, [var(self.coord)], r.choice("xy"), (0.5, 31.5), 1)], range_=(0, 31))
+        if self.dialect.integers and r.random() < 0.7:
+            bound = E("bin", INT, [where, lit(INT, n + 1)], "%", many.range)
+        else:
+            bound = self.settle(where, many.range, Context(2)) or self.settled(INT, Context(3), many.range)
+        made.append(S("decl", [bound], data=[(many, 0)]))
+        self.declare(many)
+        last = self.declare(Variable(self.name(), FLOAT, "local", REST))
+        made.append(S("decl", [lit(FLOAT, 0.0)], data=[(last, 0)]))
+        i = self.counter((0, n - 1))
+
+        saved = self.loops, self.switches, dict(self.scopes[-1])
+        self.loops, self.switches = self.loops + 1, 0
+        self.declare(i)
+        self.scopes.append(dict(self.scopes[-1]))
+        body = self.block()
+        self.scopes.pop()
+        self.loops, self.switches, self.scopes[-1] = saved
+        take = E("assign", FLOAT, [var(last), E("index", FLOAT, [var(of), var(i)], range_=REST, frac=2)], "=", REST, 2)
+        take.writes |= {last}
+        step = E("incdec", INT, [var(i)], ("++", r.random() < 0.5))
+        step.writes |= {i}
+        first = S("decl", [lit(INT, 0)], data=[(i, 0)])
+        going = E("bin", BOOL, [var(i), var(many)], "<")
+        body.body.insert(r.choice([0, 0, len(body.body)]), S("expr", [take]))
+        if r.random() < 0.5:
+            return made + [S("for", [going, step], [first, body])]
+        body.body.insert(0, S("if", [E("bin", BOOL, [var(i), var(many)], ">=")], [S("break")]))
+        if r.random() < 0.3:
+            body.body.insert(0, self.expression_statement()[0])
+        return made + [S("for", [None, step], [first, body])]
 
     def switch(self) -> list[S]:
         r = self.random
