@@ -1,7 +1,8 @@
 #include "instrumenter/storage.h"
 
-#include <algorithm>
 #include <string_view>
+
+#include "instrumenter/constructs/keywords.h"
 
 namespace shadestep::instrumenter {
 
@@ -9,23 +10,9 @@ using frontend::Shader;
 
 namespace {
 
-// Become keywords with the extensions: a shader that has them as names can do without, and so must we.
+// With the extensions.
 constexpr std::string_view kNewKeywords[] = {"buffer",   "coherent",  "restrict",
                                              "readonly", "writeonly", "layout"};
-
-bool isNewKeyword(std::string_view name) {
-  return std::find(std::begin(kNewKeywords), std::end(kNewKeywords), name) != std::end(kNewKeywords);
-}
-
-std::string namedLikeKeyword(const Shader& shader) {
-  for (const frontend::Variable& variable : shader.variables)
-    if (isNewKeyword(variable.name)) return variable.name;
-  for (const frontend::Function& function : shader.functions)
-    if (isNewKeyword(function.name)) return function.name;
-  for (std::size_t i = 1; i < shader.tokens.size(); ++i)
-    if (shader.tokens[i - 1].text == "." && isNewKeyword(shader.tokens[i].text)) return shader.tokens[i].text;
-  return "";
-}
 
 }  // namespace
 
@@ -35,7 +22,7 @@ std::string noStorage(const Shader& shader, const Target& target) {
     return "storage buffers in this stage (OpenGL 4.3 or GL_ARB_shader_storage_buffer_object), which this "
            "driver "
            "lacks";
-  const std::string name = namedLikeKeyword(shader);
+  const std::string name = namedLike(shader, kNewKeywords);
   if (!name.empty()) return "storage buffers, with which the shader's name '" + name + "' becomes a keyword";
   return "";
 }

@@ -1,6 +1,8 @@
 // Who the threads of a stage are, and what they give to the next one.
 #include <algorithm>
+#include <string_view>
 
+#include "instrumenter/constructs/keywords.h"
 #include "instrumenter/draft.h"
 
 namespace shadestep::instrumenter {
@@ -13,9 +15,13 @@ using frontend::Variable;
 
 namespace {
 
+// With GL_EXT_gpu_shader4.
+constexpr std::string_view kNewKeywords[] = {"flat", "noperspective", "centroid", "unsigned"};
+
 std::vector<Identity> vertexIdentity(const Shader& shader, const Target& target) {
   std::vector<Identity> identity;
-  const bool has_vertex = shader.version >= 130 || target.gpu_shader4;
+  const bool has_vertex =
+      shader.version >= 130 || (target.gpu_shader4 && namedLike(shader, kNewKeywords).empty());
   if (!has_vertex || (isEs(shader) && shader.version < 300)) return {};
   identity.push_back({"vertex", "gl_VertexID", shader.version < 130 ? "GL_EXT_gpu_shader4" : ""});
   if (shader.version >= 140) {

@@ -45,6 +45,20 @@ TEST(Statement, CapturesBeforeAndAfter) {
   expectProbed(body, 6, When::after, "{ color = vec4(0.0); CAPTURE; }");
 }
 
+TEST(Identity, LeavesOutAnExtensionWhoseKeywordsTheShaderHasAsNames) {
+  Target with_extension = target();
+  with_extension.gpu_shader4 = true;
+  const auto identity = [&](const std::string& name) {
+    const auto analysis = frontend::analyse(
+        frontend::Stage::vertex,
+        {"#version 120\nvoid main() { float " + name + " = 1.0; gl_Position = vec4(" + name + "); }\n"}, {});
+    EXPECT_TRUE(analysis.shader) << analysis.error;
+    return identityOf(*analysis.shader, with_extension);
+  };
+  EXPECT_FALSE(identity("smooth_").empty());
+  EXPECT_TRUE(identity("flat").empty());
+}
+
 TEST(Statement, PutsBracesRoundALoneBody) {
   const std::string body =
       "void main() {\nif (n > 1)\ncolor = vec4(0.0);\nelse if (n > 0)\ncolor.r = 1.0;\n}";
