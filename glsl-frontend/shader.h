@@ -185,6 +185,7 @@ Analysis analyse(Stage stage, const std::vector<std::string>& strings, const Pre
 struct ShaderObject {
   std::vector<std::string> strings;
   Includes includes;
+  bool operator==(const ShaderObject&) const = default;
 };
 Analysis analyseLinked(Stage stage, const std::vector<ShaderObject>& objects, const PreprocessorFacts& facts);
 

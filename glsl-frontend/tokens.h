@@ -39,12 +39,14 @@ struct PreprocessorFacts {
   // Extensions that the driver lists, e.g. "GL_ARB_shader_clock". Those that change the language have macros.
   std::vector<std::string> extensions;
   bool es = false;
+  bool operator==(const PreprocessorFacts&) const = default;
 };
 
 // What #include can find (GL_ARB_shading_language_include), as it was when the shader was compiled.
 struct Includes {
   std::vector<std::pair<std::string, std::string>> named;  // path and string; of two for one place, the later
   std::vector<std::string> search_paths;                   // of glCompileShaderIncludeARB
+  bool operator==(const Includes&) const = default;
 };
 
 // A string that was included, among the lines of the shader.

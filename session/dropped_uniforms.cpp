@@ -156,7 +156,6 @@ std::string noValue(const Shader& shader, const DrawFacts& facts, const frontend
 
 void takeOutDropped(Session& session, const std::vector<frontend::Watch>& watches, ThreadValues& values) {
   const Shader& shader = session.shader();
-  values.check.dropped = droppedUniforms(session);
   for (const frontend::Watch& watch : watches) {
     const std::string reason = noValue(shader, session.facts(), watch);
     if (reason.empty()) continue;
@@ -166,10 +165,6 @@ void takeOutDropped(Session& session, const std::vector<frontend::Watch>& watche
       std::fill(one.words.begin(), one.words.end(), 0);
     }
   }
-}
-
-std::string droppedUniforms(Session& session) {
-  return droppedUniforms(session.shader(), session.facts());
 }
 
 std::string droppedUniforms(const Shader& shader, const DrawFacts& facts) {

@@ -14,9 +14,8 @@ std::string noValue(const frontend::Shader&, const DrawFacts&, const frontend::W
 // Takes the values of dropped uniforms out; `watches` are those of the probe, in order.
 void takeOutDropped(Session&, const std::vector<frontend::Watch>& watches, ThreadValues&);
 
-// Which uniforms the current draw's fragment shader names in vain, and which variables may depend on them, as
-// a sentence for the user; "" if there are none.
-std::string droppedUniforms(Session&);
+// Which uniforms a draw's shader names in vain, and which variables may depend on them, as a sentence for the
+// user; "" if there are none.
 std::string droppedUniforms(const frontend::Shader&, const DrawFacts&);
 
 }  // namespace shadestep::session

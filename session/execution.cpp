@@ -1,6 +1,7 @@
 // Prepared programs, their executions at the draw at which the program stands, and the checks of these.
 #include <algorithm>
 
+#include "session/dropped_uniforms.h"
 #include "session/session_state.h"
 
 namespace shadestep::session {
@@ -103,6 +104,15 @@ BoxTimes Session::timeBoxes(const std::vector<Box>& boxes, int repeats) {
   return result;
 }
 
+const std::string& Session::State::droppedOf(Stage of) {
+  const auto known = dropped.find(of);
+  if (known != dropped.end()) return known->second;
+  const auto shader = shaders.find(of);
+  static const std::string kNone;  // what was not analysed is shown no values of
+  if (shader == shaders.end() || !facts) return kNone;
+  return dropped.emplace(of, droppedUniforms(*shader->second, *facts)).first->second;
+}
+
 Execution Session::execute(const Prepared& prepared, const ExecuteOptions& options) {
   wire::ExecuteT execute;
   execute.handle = prepared.handle();
@@ -182,6 +192,7 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
   if (reply.largest)
     result.check.largest = {reply.largest->by, reply.largest->expected, reply.largest->got,
                             reply.largest->where};
+  result.check.dropped = state_->droppedOf(stage());
   result.check.reason = options.compare ? reply.compare_reason : "not asked for";
   if (options.compare && reply.compare_reason == wire::kNothingToCompare && !prepared.uncompared.empty())
     result.check.reason = prepared.uncompared;

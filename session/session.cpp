@@ -248,7 +248,7 @@ const DrawFacts& Session::facts() {
 }
 
 const frontend::Shader& Session::shader(Stage stage) {
-  if (const auto known = state_->shaders.find(stage); known != state_->shaders.end()) return known->second;
+  if (const auto known = state_->shaders.find(stage); known != state_->shaders.end()) return *known->second;
   const DrawFacts& draw = facts();
   if (!draw.program_reason.empty()) throw Error(Outcome::cannot_debug, draw.program_reason);
 
@@ -263,12 +263,12 @@ const frontend::Shader& Session::shader(Stage stage) {
     frontend::PreprocessorFacts driver;
     driver.extensions = draw.extensions;
     driver.es = draw.es;
-    frontend::Analysis analysis = frontend::analyseLinked(stage, one.objects, driver);
+    const frontend::Analysis& analysis = state_->analyses.of(stage, one.objects, driver);
     if (!analysis.shader) {
       throw Error(Outcome::cannot_debug,
                   "the " + std::string(stageName(stage)) + " shader cannot be analysed: " + analysis.error);
     }
-    return state_->shaders.emplace(stage, std::move(*analysis.shader)).first->second;
+    return *state_->shaders.emplace(stage, &*analysis.shader).first->second;
   }
   throw Error(Outcome::nothing_matches,
               "the draw's program has no " + std::string(stageName(stage)) + " shader; it has: " + present);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "session/analyses.h"
 #include "session/programs.h"
 #include "session/session.h"
 #include "session/undefined_outputs.h"
@@ -40,7 +41,9 @@ struct Session::State {
   wire::WatchT watch;  // with `visit_call`: what runUntil tells of
   CallVisitor visit_call;
   std::optional<DrawFacts> facts;
-  std::map<Stage, frontend::Shader> shaders;
+  Analyses analyses;
+  std::map<Stage, const frontend::Shader*> shaders;  // of the current stop
+  std::map<Stage, std::string> dropped;  // see droppedOf
   std::optional<UndefinedOutputs> undefined;
   FragmentChoice fragments;
   Stage stage = Stage::fragment;                       // that is looked at
@@ -55,11 +58,16 @@ struct Session::State {
     call.reset();
     facts.reset();
     shaders.clear();
+    analyses.trim();
+    dropped.clear();
     undefined.reset();
     discarded_room = kFirstDiscardedRoom;
     listed_room = kFirstListedRoom;
     answered.reset();
   }
+
+  // Of which uniforms a stage of the current draw has no values, for each check to say.
+  const std::string& droppedOf(Stage);
 
   // Runs on under the policy until the program stops; null: it has ended.
   std::unique_ptr<wire::MessageT> resume(const wire::ResumeT& policy);

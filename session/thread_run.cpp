@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "instrumenter/recording.h"
-#include "session/dropped_uniforms.h"
 #include "session/probed_run.h"
 
 namespace shadestep::session {
@@ -138,11 +137,7 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
     // the same.
     if (error.outcome() != Outcome::cannot_debug || hit > 0) throw;
   }
-  if (!prepared) {
-    ThreadRun run = followPixelByProbes(session, x, y);
-    run.check.dropped = droppedUniforms(session);
-    return run;
-  }
+  if (!prepared) return followPixelByProbes(session, x, y);
   const Session::Recorded recorded = recordPixel(session, *prepared, x, y);
   const PixelHits hits = hitsOn(recorded, x, y);
   const int chosen = pickHit(hits, x, y, hit);
@@ -168,7 +163,6 @@ ThreadRun followPixel(Session& session, int x, int y, int hit) {
       return redrawn;
     });
   }
-  run.check.dropped = droppedUniforms(session);
   return run;
 }
 

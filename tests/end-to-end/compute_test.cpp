@@ -71,6 +71,8 @@ TEST_P(Compute, FollowsOneInvocation) {
   EXPECT_EQ(sum, sumOfGroup(x, y));
   EXPECT_EQ(own, brought(x, y));
   EXPECT_EQ(document["check"]["outputs"], "identical");
+  EXPECT_NE(document["check"]["dropped"].dump().find("'lost'"), std::string::npos)
+      << "it is shown as zero: " << document["check"];
 }
 
 INSTANTIATE_TEST_SUITE_P(Dispatches, Compute,

@@ -6,7 +6,7 @@
 static const char* const kCompute = R"glsl(#version 430
 layout(local_size_x = 4, local_size_y = 2) in;
 layout(std430, binding = 1) buffer Sums { int total; int sums[]; };
-shared int brought[8];
+shared int brought[8]; uniform int lost;  // by the driver: nothing depends on it
 int bring(uvec3 at)
 {
     int value = int(at.x) + 10 * int(at.y) + 100 * int(at.z);
@@ -16,7 +16,7 @@ int bring(uvec3 at)
 }
 void main()
 {
-    uint index = gl_LocalInvocationIndex;
+    uint index = gl_LocalInvocationIndex, idle = uint(lost);
     brought[index] = bring(gl_GlobalInvocationID);
     barrier();
     int sum = 0;
