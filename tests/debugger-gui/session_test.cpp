@@ -67,6 +67,33 @@ TEST(Session, ShowsWhatTheCommandLineShows) {
   EXPECT_GE(compared, 15);
 }
 
+// On a pixel that the draw covers, and by the picked thread's own way.
+TEST(Session, OpenGlEsAndPipelinesAreAsTheCommandLineHasThem) {
+  Scratch scratch;
+  for (const char* name : {"programs/es-window", "programs/es-target", "programs/pipelines"}) {
+    SCOPED_TRACE(name);
+    if (scratch.run({binary(name)}).status == 77) continue;  // the driver has no such surface
+    Window window;
+    window.start({binary(name)});
+    ASSERT_EQ(window.debugger().program(), Debugger::Program::stopped) << window.lastMessage().toStdString();
+    ASSERT_TRUE(window.debugger().values());
+    const session::ThreadValues& threads = window.debugger().values()->threads;
+    std::size_t covered = 0;
+    while (covered < threads.marks.size() && !threads.reachedAt(covered)) ++covered;
+    ASSERT_LT(covered, threads.marks.size());
+    const int x = static_cast<int>(covered) % threads.width, y = static_cast<int>(covered) / threads.width;
+    window.pick(x, y);
+    ASSERT_TRUE(window.debugger().run()) << window.debugger().runReason().toStdString();
+    ASSERT_TRUE(window.debugger().check());
+    EXPECT_TRUE(window.debugger().check()->identical());
+    const std::string pixel = std::to_string(x) + "," + std::to_string(y);
+    const Json run = scratch.shadestep({"debug", "--pixel", pixel, "--json"}, {binary(name)}).json();
+    const auto& steps = window.debugger().run()->run.steps;
+    ASSERT_EQ(steps.size(), run["steps"].size());
+    for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_EQ(steps[i].line, run["steps"][i]["line"]) << i;
+  }
+}
+
 TEST(Session, StepsOverIntoAndOut) {
   Window window;
   window.start(smallRaycaster());
