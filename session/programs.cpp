@@ -19,6 +19,12 @@ namespace {
 
 constexpr int kGreetingMs = 5000;  // an agent speaks at once; this only bounds a broken one
 
+// What to try where a frame or draw never came; programs that draw only on change reach few frames.
+std::string earlierFrames(const LastSeen& last) {
+  if (last.total_draws == 0) return "";
+  return "; 'shadestep draws --frames 0.." + std::to_string(last.frame) + "' lists the draws until there";
+}
+
 wire::Listener makeListener() {
   auto listener = wire::Listener::create();
   if (!listener) throw Error(Outcome::failed, "cannot open a Unix socket to talk to the program under debug");
@@ -189,9 +195,10 @@ std::unique_ptr<wire::MessageT> Programs::waitForStop(const Deadline& deadline) 
       if (poll(entries.data(), 1, 0) <= 0) return nullptr;
     } else if (poll(entries.data(), entries.size(), remainingMs(deadline)) == 0) {
       for (const auto& peer : peers_) noteLast(*peer);
-      throw TimedOut(Outcome::ended,
-                     "the time limit ran out while the program was in frame " + std::to_string(last_.frame) +
-                         ", after " + std::to_string(last_.draws) + " draws of it; give more with --timeout");
+      throw TimedOut(Outcome::ended, "the time limit ran out while the program was in frame " +
+                                         std::to_string(last_.frame) + ", after " +
+                                         std::to_string(last_.draws) +
+                                         " draws of it; give more with --timeout" + earlierFrames(last_));
     }
 
     if ((entries[1].revents & POLLIN) != 0) pauseAll();
@@ -286,7 +293,7 @@ std::string Programs::describeEnd(const std::string& before) {
   for (const std::string& call : last_.calls) where += ", in " + call;
   const auto crash = tracer_ && last_.died != 0 ? tracer_->crash(last_.died) : std::nullopt;
   if (crash) where += ": " + describe(*crash);
-  if (!before.empty()) where += ", before " + before;
+  if (!before.empty()) where += ", before " + before + (last_.orderly ? earlierFrames(last_) : "");
   return ended + where;
 }
 

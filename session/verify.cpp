@@ -60,6 +60,8 @@ VerifyCounts VerifyReport::total() const {
 
 void Verifier::verifyDraw() {
   ++report_.draws;
+  last_ = session_.stop();
+  within_draw_ = true;
   const std::vector<Stage> stages =
       options_.stage ? std::vector<Stage>{*options_.stage} : stagesOf(session_.facts());
   const bool before_fragments = std::any_of(stages.begin(), stages.end(), [](Stage stage) {
@@ -69,6 +71,7 @@ void Verifier::verifyDraw() {
   for (const Stage stage : stages)
     verifyStage(stage, options_.seconds_per_draw / static_cast<double>(stages.size()));
   if (before_fragments) checkDraw();
+  within_draw_ = false;
 }
 
 // Replays of stages before rasterization draw nothing: that they leave what the draw makes is seen
@@ -88,7 +91,8 @@ void Verifier::verifyStage(Stage stage, double seconds) {
   const DrawFacts& facts = session_.facts();
   const std::string text = textOf(facts, stage);
   const auto skip = [&](const std::string& reason) { ++report_.skipped[{stage, reason}]; };
-  if (++seen_[{facts.program, stage, text}] > options_.draws_per_shader)
+  // Without a text each draw says by itself why there is none.
+  if (!text.empty() && ++seen_[{facts.program, stage, text}] > options_.draws_per_shader)
     return skip("the shader was checked in an earlier draw");
   const bool is_new = texts_.insert({stage, text}).second;
   bool analysed = false;
@@ -112,6 +116,12 @@ void Verifier::addEnd(Kind kind, const std::string& detail) {
   ++(kind == Kind::timeout ? report_.outside.timeouts : report_.outside.crashes);
   VerifyFailure failure;
   failure.kind = kind;
+  failure.frame = last_.frame;
+  failure.draw = last_.draw;
+  if (within_draw_)
+    failure.stage = session_.stage();
+  else
+    failure.plan = "after the draw";
   failure.detail = detail;
   report_.failures.push_back(std::move(failure));
 }

@@ -35,7 +35,7 @@ struct VerifyFailure {
   std::uint64_t frame = 0, draw = 0;
   int line = 0, column = 0;  // 0: the whole draw
   // "copy", "single before", "single after", "choice", "behind a call", "recording", "window", "redraws",
-  // "loops", "count", "clock", "state", "draw"
+  // "loops", "count", "clock", "state", "draw", "after the draw"
   std::string plan;
   std::string variable;
   std::string detail;
@@ -80,7 +80,8 @@ class Verifier {
   // the program under debug is gone or the time limit of the session ran out.
   void verifyDraw();
   const VerifyReport& report() const { return report_; }
-  // Something that went wrong outside a draw's own checks, such as the end of the program.
+  // Something that ended the checks, such as the end of the program: in or behind the last draw that was
+  // looked at.
   void addEnd(VerifyFailure::Kind, const std::string& detail);
 
  private:
@@ -90,6 +91,8 @@ class Verifier {
   Session& session_;
   VerifyOptions options_;
   VerifyReport report_;
+  DrawStop last_;  // that was looked at
+  bool within_draw_ = false;
   std::map<std::tuple<std::uint32_t, Stage, std::string>, int> seen_;  // program, stage, text -> draws
   std::set<std::pair<Stage, std::string>> texts_;
 };

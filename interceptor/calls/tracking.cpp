@@ -84,7 +84,13 @@ void noteCompiled(GLuint shader, std::vector<std::string> search_paths) {
   text.compiled = compiled(text.given, std::move(search_paths));
 }
 
-void markWithoutText(GLsizei count, const GLuint* shaders, const char* reason) {
+std::string loadedAsBinary(const char* what) {
+  return std::string("the ") + what +
+         " was loaded as a binary: there is no source; switch the program's shader cache off (Qt: "
+         "QT_DISABLE_SHADER_DISK_CACHE=1 QSG_RHI_DISABLE_SHADER_DISK_CACHE=1)";
+}
+
+void markWithoutText(GLsizei count, const GLuint* shaders, const std::string& reason) {
   const std::lock_guard lock(mutex);
   ShareGroup* group = currentGroup();
   if (group == nullptr || shaders == nullptr) return;
@@ -156,7 +162,7 @@ void after_glCompileShaderIncludeARB(GLuint shader, GLsizei count, const GLchar*
 }
 
 void after_glShaderBinary(GLsizei count, const GLuint* shaders, GLenum, const void*, GLsizei) {
-  markWithoutText(count, shaders, "the shader was loaded as a binary: there is no source");
+  markWithoutText(count, shaders, loadedAsBinary("shader"));
 }
 
 void after_glSpecializeShader(GLuint shader, const GLchar*, GLuint, const GLuint*, const GLuint*) {
@@ -229,7 +235,7 @@ void after_glBeginTransformFeedback(GLenum mode) {
 void after_glProgramBinary(GLuint program, GLenum, const void*, GLsizei) {
   const std::lock_guard lock(mutex);
   LinkedProgram linked;
-  linked.reason = "the program was loaded as a binary: there is no source";
+  linked.reason = loadedAsBinary("program");
   setLinked(program, std::move(linked));
 }
 

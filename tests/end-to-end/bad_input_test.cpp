@@ -111,12 +111,17 @@ INSTANTIATE_TEST_SUITE_P(
              {"debug", "--pixel", "1,1"},
              {binary("programs/program-binary")},
              4,
-             "the program was loaded as a binary: there is no source"},
+             "the program was loaded as a binary: there is no source; switch the program's shader cache off"},
         Case{"SpirV",
              {"debug", "--pixel", "1,1"},
              {binary("programs/spirv")},
              4,
              "the shader is SPIR-V: there is no source"},
+        Case{"FrameThatNeverComes",
+             {"debug", "--frame", "9", "--pixel", "1,1"},
+             {binary("programs/fixed-function")},
+             5,
+             "'shadestep draws --frames 0..0' lists the draws"},
         Case{"EndsEarly", {"debug", "--pixel", "1,1"}, {binary("programs/no-draw")}, 3, "no draw"}),
     [](const auto& given) { return given.param.name; });
 

@@ -138,5 +138,32 @@ TEST(Verify, SaysWhyADrawIsLeftOut) {
   EXPECT_FALSE(report.at("skipped")[0].at("reason").get<std::string>().empty());
 }
 
+// Also of later draws without a shader: none was checked in an earlier draw.
+TEST(Verify, SaysOfEachDrawWithoutAShaderThatItHasNone) {
+  const Scratch scratch;
+  const Finished finished = scratch.shadestep({"verify", "--json"}, {binary("programs/fixed-function")});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  const Json report = finished.json();
+  EXPECT_EQ(report.at("draws"), 2);
+  ASSERT_EQ(report.at("skipped").size(), 1) << report.dump(1);
+  EXPECT_EQ(report.at("skipped")[0].at("count"), 2);
+  EXPECT_NE(report.at("skipped")[0].at("reason").get<std::string>().find("no GLSL program"),
+            std::string::npos)
+      << report.dump(1);
+}
+
+TEST(Verify, SaysBehindWhichDrawTheProgramEnded) {
+  const Scratch scratch;
+  const Finished finished = scratch.shadestep({"verify", "--json"}, {binary("programs/crash"), "later"});
+  EXPECT_EQ(finished.status, 1) << finished.err;
+  const Json report = finished.json();
+  ASSERT_EQ(report.at("failures").size(), 1) << report.dump(1);
+  const Json& failure = report.at("failures")[0];
+  EXPECT_EQ(failure.at("kind"), "crash");
+  EXPECT_EQ(failure.at("frame"), 0);
+  EXPECT_EQ(failure.at("draw"), 2);
+  EXPECT_EQ(failure.at("plan"), "after the draw");
+}
+
 }  // namespace
 }  // namespace shadestep::test

@@ -1,4 +1,4 @@
-// Dies of SIGSEGV: `crash before` its only draw, or `crash after` it.
+// Dies of SIGSEGV: `crash before` its only draw, `crash after` it, or `crash later`, after two more.
 #include <csignal>
 #include <string_view>
 
@@ -6,13 +6,12 @@
 
 int main(int argc, char** argv) {
   const std::string_view when = argc > 1 ? argv[1] : "";
-  if (when != "before" && when != "after") fail("usage: crash before|after");
+  if (when != "before" && when != "after" && when != "later") fail("usage: crash before|after|later");
   const OsmesaContext context;
   glUseProgram(linkProgram(kPlainVertex, "#version 120\nvoid main()\n{\n    gl_FragColor = vec4(1.0);\n}\n"));
-  if (when == "after") {
-    drawEverywhere();
-    glFinish();
-  }
+  const int draws = when == "before" ? 0 : when == "after" ? 1 : 3;
+  for (int i = 0; i < draws; ++i) drawEverywhere();
+  glFinish();
   // raise() instead of a wild pointer: the compiler may not assume it away.
   std::raise(SIGSEGV);
 }
