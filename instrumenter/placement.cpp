@@ -215,7 +215,7 @@ frontend::Type outcomeType(const Shader& shader, const Probe& probe) {
 }
 
 std::string outcomeText(const Draft& draft, Conditions& conditions, const Probe& probe) {
-  return probe.inside == frontend::kNone ? conditions.outcome(probe.statement) : choiceOutcome(draft);
+  return probe.inside == frontend::kNone ? conditions.outcome(probe.statement) : choiceOutcome(draft, probe.inside);
 }
 
 std::vector<StatementId> numberedLoops(const Shader& shader, const Probe& probe) {

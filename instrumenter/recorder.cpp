@@ -194,7 +194,7 @@ void Recorder::recordInside(StatementId id) {
   for (const frontend::TokenRange& range : ownExpressions(shader_, id))
     for (const Choice& choice : choicesIn(shader_, range)) {
       layout.token = choice.at;
-      putAfterDecision(draft_.edits, draft_, choice, record(layout, {{"", choiceOutcome(draft_), outcome}}));
+      putAfterDecision(draft_.edits, draft_, choice, record(layout, {{"", choiceOutcome(draft_, choice.at), outcome}}));
     }
   if (!isForInit(shader_, id)) recordCalls(id);
 }

@@ -129,13 +129,13 @@ std::optional<Choice> choiceAt(const Shader& shader, StatementId id, TokenIndex 
 }
 
 void putAfterDecision(Edits& edits, Draft& draft, const Choice& choice, const std::string& text) {
-  const std::string outcome = choiceOutcome(draft);
+  const std::string outcome = choiceOutcome(draft, choice.at);
   draft.declare("bool " + outcome + ";");
   edits.wrap(choice.decides, "(" + outcome + " = (", "), " + text + ", " + outcome + ")");
 }
 
-std::string choiceOutcome(const Draft& draft) {
-  return draft.name("outcome");
+std::string choiceOutcome(const Draft& draft, TokenIndex op) {
+  return draft.name("outcome" + std::to_string(op));
 }
 
 std::optional<frontend::Call> callEndingAt(const Shader& shader, StatementId id, TokenIndex close) {

@@ -1,8 +1,11 @@
 // Operators that run only some of their operands, and calls: what stands inside of an expression and is worth
 // looking at by itself.
 //
-//   a && b ? c : d   ->   (sd_outcome = ((sd_outcome = (a), after, sd_outcome) && b), after, sd_outcome) ? c : d
+//   a && b ? c : d   ->   (sd_outcome5 = ((sd_outcome2 = (a), after, sd_outcome2) && b), after, sd_outcome5) ? c : d
 //   f(a)             ->   (sd_returned7 = f(a), after, sd_returned7)
+//
+// Each has a buffer of its own: of `bvec2(a && b, c && d)` Mesa reads what decides only after it evaluated all,
+// and would take a buffer for both to hold the last.
 #pragma once
 
 #include <optional>
@@ -32,9 +35,9 @@ std::vector<frontend::TokenRange> ownExpressions(const frontend::Shader&, fronte
 std::optional<Choice> choiceAt(const frontend::Shader&, frontend::StatementId, frontend::TokenIndex op);
 
 // `text`: a comma-separated list of expressions, evaluated right after the deciding operand; it may use
-// choiceOutcome.
+// choiceOutcome of the operator.
 void putAfterDecision(Edits&, Draft&, const Choice&, const std::string& text);
-std::string choiceOutcome(const Draft&);
+std::string choiceOutcome(const Draft&, frontend::TokenIndex op);
 
 // The statement's own call whose closing parenthesis stands at a token.
 std::optional<frontend::Call> callEndingAt(const frontend::Shader&, frontend::StatementId,

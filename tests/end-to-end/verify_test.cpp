@@ -95,6 +95,28 @@ void main() {
   expectNothingWrong(finished.json());
 }
 
+// Mesa reads what decides such operands when it has evaluated all of them (constructs/operators.h).
+TEST(Verify, FindsNothingWrongWithDecisionsSideBySide) {
+  const Scratch scratch;
+  std::ofstream(scratch.file("decisions.frag")) << R"(#version 330
+out vec4 colour;
+bool over(float a, float b) { return a > b; }
+void main() {
+  vec2 p = gl_FragCoord.xy;
+  bvec4 outside = bvec4(p.x < 4.0 && p.y < 4.0, p.x > 8.0 && p.y < 4.0, p.x > 8.0 && p.y > 8.0, p.x < 4.0 && p.y > 8.0);
+  bvec2 either = bvec2(p.x < 4.0 || p.y > 9.0, p.x > 8.0 || p.y > 4.0);
+  vec3 picked = vec3(p.x < 4.0 ? 1.0 : 2.0, p.y < 4.0 ? 3.0 : 4.0, over(p.x, 3.0) ? 5.0 : 6.0);
+  bool both = (p.x > 3.0 && p.y > 6.0) == (p.y < 2.0 && p.x < 7.0);
+  colour = vec4(outside) + vec4(either, picked.xy) + vec4(picked.z, both, 0.0, 0.0);
+}
+)";
+  const Finished finished =
+      scratch.shadestep({"verify", "--json", "--stage", "fragment"},
+                        {binary("programs/shader-file"), scratch.file("decisions.frag")});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  expectNothingWrong(finished.json());
+}
+
 TEST(Verify, LooksAtEveryStageThatADrawHas) {
   const Scratch scratch;
   const Finished finished = scratch.shadestep({"verify", "--json", "--continue", "--draws-per-shader", "9"},

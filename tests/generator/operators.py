@@ -119,6 +119,10 @@ class Operators:
         return E("bin", type_, [a, b], op)
 
     def bool_op(self, type_: Type, ctx: Context) -> E | None:
+        if type_.is_vector() and not ctx.constant and self.random.random() < 0.4:
+            decisions = [E("logic", BOOL, [self.rare(), self.rare()], self.random.choice(["&&", "||"]))
+                         for _ in range(type_.rows)]
+            return E("ctor", type_, decisions)
         if type_.is_vector():
             base = self.random.choice(["int", "float"] + (["uint"] if self.dialect.integers else []))
             a, b = self.operands(Type(base, type_.rows), ctx, False)

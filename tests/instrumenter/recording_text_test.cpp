@@ -150,12 +150,13 @@ TEST(Recording, SaysWhichOperandsRan) {
   EXPECT_EQ(described(shader, recording(shader).layout),
             "enter 5\nleave 5\nstatement 6 b\nchoice 6 ?\nchoice 6 ?\nstatement 7 color\nchoice 7 ?\n");
   const std::string text = recording(shader).text;
-  const auto recorded = [](const std::string& id) {
-    return ", (sd_record(" + id + ", 1) && (sd_words[sd_at] = int(sd_outcome), true)), sd_outcome)";
+  const auto recorded = [](const std::string& id, const std::string& outcome) {
+    return ", (sd_record(" + id + ", 1) && (sd_words[sd_at] = int(" + outcome + "), true)), " + outcome + ")";
   };
-  expectPart(text, "bool b = (sd_outcome = ((sd_outcome = (n > 1)" + recorded("5") + " && n < 5)" +
-                       recorded("4") + " || n == 9;");
-  expectPart(text, "color = (sd_outcome = (b)" + recorded("7") + " ? vec4(1.0) : vec4(true ? 0.5 : 0.0);");
+  expectPart(text, "bool b = (sd_outcome28 = ((sd_outcome24 = (n > 1)" + recorded("5", "sd_outcome24") +
+                       " && n < 5)" + recorded("4", "sd_outcome28") + " || n == 9;");
+  expectPart(text, "color = (sd_outcome36 = (b)" + recorded("7", "sd_outcome36") +
+                       " ? vec4(1.0) : vec4(true ? 0.5 : 0.0);");
 }
 
 TEST(Recording, TellsTheCallsOfOneFunctionApart) {

@@ -227,15 +227,16 @@ Probe inside(const Shader& shader, int line, const std::string& token, std::size
   return probe;
 }
 
+// The numbers are the operators' tokens.
 TEST(Inside, CapturesAfterTheOperandThatDecides) {
   const Shader shader =
       analysed(kHead + "void main() {\nbool b = n > 1 && n < 5;\nif (b ? n > 2 : b || n > 3) discard;\n}");
   expectPart(single(shader, inside(shader, 6, "&&")),
-             withCapture("bool b = (sd_outcome = (n > 1), CAPTURE, sd_outcome) && n < 5;"));
+             withCapture("bool b = (sd_outcome24 = (n > 1), CAPTURE, sd_outcome24) && n < 5;"));
   expectPart(single(shader, inside(shader, 7, "||")),
-             withCapture("if (b ? n > 2 : (sd_outcome = (b), CAPTURE, sd_outcome) || n > 3)"));
+             withCapture("if (b ? n > 2 : (sd_outcome38 = (b), CAPTURE, sd_outcome38) || n > 3)"));
   expectPart(single(shader, inside(shader, 7, "?")),
-             withCapture("if ((sd_outcome = (b), CAPTURE, sd_outcome) ? n > 2"));
+             withCapture("if ((sd_outcome32 = (b), CAPTURE, sd_outcome32) ? n > 2"));
   expectPart(single(shader, inside(shader, 7, ">")), "failure: There is no operator and no call");
   EXPECT_EQ(
       choicesOf(shader, inside(shader, 7, "?").statement),
