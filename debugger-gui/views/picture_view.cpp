@@ -5,15 +5,11 @@
 #include <QPainter>
 #include <QWheelEvent>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "debugger-gui/style/theme.h"
 #include "debugger-gui/views/value_glyphs.h"
-#include "profiler/pictures/colors.h"
-#include "profiler/pictures/heat_map.h"
 
 namespace shadestep::gui {
 namespace {
@@ -21,41 +17,6 @@ namespace {
 constexpr double kLargestScale = 160;
 constexpr double kValuesFrom = 34;  // screen pixels per pixel: values are printed, if they can be read
 constexpr double kGridFrom = 8;
-
-// What is not finite is striped in its colour, which others might have too: such pixels are told by their
-// alpha.
-constexpr int kAlphaOfNan = 0xfe, kAlphaOfInfinite = 0xfd;
-QRgb withAlpha(const QColor& color, int alpha) {
-  return qRgba(color.red(), color.green(), color.blue(), alpha);
-}
-QRgb striped(QRgb color, int x, int y) {
-  constexpr int kPeriod = 6, kWide = 2, kDarker = 130;  // percent
-  const bool is_nan = qAlpha(color) == kAlphaOfNan;
-  if (!is_nan && qAlpha(color) != kAlphaOfInfinite) return color;
-  const bool on_stripe = (is_nan ? x + y : y) % kPeriod < kWide;
-  return on_stripe ? QColor::fromRgb(color).darker(kDarker).rgb() : color;
-}
-
-QRgb packed(const profiler::Color& color) {
-  const auto byte = [](double v) { return static_cast<int>(std::lround(255 * std::clamp(v, 0.0, 1.0))); };
-  return qRgb(byte(color.r), byte(color.g), byte(color.b));
-}
-
-// A colour map as a table: looked up per pixel.
-using Table = std::array<QRgb, 1024>;
-Table tableOf(profiler::Color (*colors)(double)) {
-  Table table{};
-  for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = packed(colors(static_cast<double>(i) / static_cast<double>(table.size() - 1)));
-  return table;
-}
-const Table& tableFor(Picture::Scale scale) {
-  static const Table kSequential = tableOf(profiler::sequentialColor);
-  static const Table kDifference = tableOf(profiler::differenceColor);
-  static const Table kGrey = tableOf([](double t) { return profiler::Color{t, t, t}; });
-  if (scale == Picture::Scale::difference) return kDifference;
-  return scale == Picture::Scale::grey ? kGrey : kSequential;
-}
 
 }  // namespace
 
@@ -73,8 +34,7 @@ void PictureView::setPicture(const PicturePtr& picture) {
   const bool same_size =
       picture && picture_ && picture->width == picture_->width && picture->height == picture_->height;
   picture_ = picture;
-  findRange();
-  render();
+  recolor();
   if (!same_size || fitted_) fit();
   update();
   Q_EMIT shown();
@@ -82,10 +42,17 @@ void PictureView::setPicture(const PicturePtr& picture) {
 
 void PictureView::setMapping(const Mapping& mapping) {
   mapping_ = mapping;
-  findRange();
-  render();
+  recolor();
   update();
   Q_EMIT shown();
+}
+
+void PictureView::recolor() {
+  colored_ = {};
+  if (!picture_) return;
+  mapping_ = fitted(mapping_, *picture_);
+  if (mapping_.automatic) Q_EMIT mappingChanged();
+  colored_ = colored(*picture_, mapping_);
 }
 
 void PictureView::setPicked(std::optional<QPoint> pixel) {
@@ -99,112 +66,10 @@ void PictureView::setPicked(std::optional<QPoint> pixel) {
   update();
 }
 
-// ---- numbers to colours
-
-// One, by the colour map, or the first three as red, green and blue.
-PictureView::Channels PictureView::channelsShown() const {
-  const auto count =
-      static_cast<std::size_t>(picture_->meaningful > 0 ? picture_->meaningful : picture_->components);
-  if (mapping_.channels == Mapping::Channels::all) return {0, std::min<std::size_t>(count, 3)};
-  const auto only = std::min<std::size_t>(static_cast<std::size_t>(mapping_.channels) - 1,
-                                          static_cast<std::size_t>(picture_->components) - 1);
-  return {only, only + 1};
-}
-
-void PictureView::findRange() {
-  if (!mapping_.automatic || !picture_ || !picture_->colors.empty()) return;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  const auto count = static_cast<std::size_t>(picture_->components);
-  const Channels channels = channelsShown();
-  for (std::size_t p = 0; p < picture_->cells.size(); ++p) {
-    if (picture_->cells[p] != Picture::Cell::reached) continue;
-    for (std::size_t c = channels.first; c < channels.end; ++c) {
-      const double value = static_cast<double>(picture_->values[p * count + c]);
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  if (low > high) low = 0, high = 1;
-  const bool together = mapping_.channels == Mapping::Channels::all;
-  const bool colors = channels.end - channels.first > 1 && low >= 0 && high <= 1;
-  if (together && (picture_->as_is || colors)) low = 0, high = 1;
-  if (picture_->scale == Picture::Scale::difference) {
-    high = std::max(std::abs(low), std::abs(high));
-    low = -high;
-  }
-  // As the profiler's own maps: one interrupted measurement must not take all contrast from the rest.
-  if (picture_->scale == Picture::Scale::cost) {
-    std::vector<double> costs;
-    for (std::size_t p = 0; p < picture_->cells.size(); ++p)
-      if (picture_->cells[p] == Picture::Cell::reached)
-        costs.push_back(static_cast<double>(picture_->values[p]));
-    if (!costs.empty()) {
-      const profiler::ColorRange range = profiler::costRange(costs);
-      low = range.low;
-      high = range.high;
-    }
-  }
-  if (low == high) high = low + 1;
-  mapping_.low = low;
-  mapping_.high = high;
-  Q_EMIT mappingChanged();
-}
-
-void PictureView::render() {
-  image_ = QImage();
-  if (!picture_) return;
-  hatched_ = std::find(picture_->cells.begin(), picture_->cells.end(), Picture::Cell::not_reached) !=
-             picture_->cells.end();
-  // Without pixels to see the hatching through it is painted several times as fast.
-  image_ = QImage(picture_->width, picture_->height,
-                  hatched_ ? QImage::Format_ARGB32_Premultiplied : QImage::Format_RGB32);
-  const auto count = static_cast<std::size_t>(picture_->components);
-  const double span = mapping_.high - mapping_.low;
-  const auto position = [&](float value) {
-    const double t = std::clamp((static_cast<double>(value) - mapping_.low) / span, 0.0, 1.0);
-    return mapping_.gamma == 1 ? t : std::pow(t, 1 / mapping_.gamma);
-  };
-  const auto rounded = [](double number) { return static_cast<std::size_t>(number + 0.5); };
-  const Channels channels = channelsShown();
-  const Table& table = tableFor(picture_->scale);
-  const QRgb nan = withAlpha(theme().nan, kAlphaOfNan);
-  const QRgb infinite = withAlpha(theme().infinite, kAlphaOfInfinite);
-  striped_ = false;
-  const auto color = [&](const float* values) -> QRgb {
-    for (std::size_t c = channels.first; c < channels.end; ++c)
-      if (!std::isfinite(values[c])) {
-        striped_ = true;
-        return std::isnan(values[c]) ? nan : infinite;
-      }
-    if (channels.end == channels.first + 1)
-      return table[rounded(position(values[channels.first]) * static_cast<double>(table.size() - 1))];
-    int rgb[3] = {0, 0, 0};
-    for (std::size_t c = channels.first; c < channels.end; ++c)
-      rgb[c] = static_cast<int>(rounded(255 * position(values[c])));
-    return qRgb(rgb[0], rgb[1], rgb[2]);
-  };
-  const QRgb none = theme().no_thread.rgb();
-  for (int y = 0; y < picture_->height; ++y) {
-    auto* line = reinterpret_cast<QRgb*>(image_.scanLine(picture_->height - 1 - y));
-    for (int x = 0; x < picture_->width; ++x) {
-      const std::size_t p = picture_->index(x, y);
-      if (picture_->cells[p] == Picture::Cell::none) {
-        line[x] = none;
-      } else if (picture_->cells[p] == Picture::Cell::not_reached) {
-        line[x] = 0;  // the hatched background shows
-      } else {
-        line[x] = picture_->colors.empty() ? color(&picture_->values[p * count]) : picture_->colors[p];
-      }
-    }
-  }
-}
-
 // ---- painting
 
 QRectF PictureView::frame() const {
-  return {origin_, QSizeF(image_.width() * scale_, image_.height() * scale_)};
+  return {origin_, QSizeF(colored_.image.width() * scale_, colored_.image.height() * scale_)};
 }
 
 void PictureView::paintEvent(QPaintEvent*) {
@@ -226,15 +91,15 @@ void PictureView::paintEvent(QPaintEvent*) {
       QRectF((visible.left() - whole.left()) / scale_, (visible.top() - whole.top()) / scale_,
              visible.width() / scale_, visible.height() / scale_)
           .toAlignedRect()
-          .intersected(image_.rect());
+          .intersected(colored_.image.rect());
   if (scale_ >= 1 || smooth_later_.isActive()) {  // quick before smooth
     paintByRows(painter, visible);
   } else {
-    if (hatched_) painter.fillRect(visible, QBrush(hatchTile()));
+    if (colored_.hatched) painter.fillRect(visible, QBrush(hatchTile()));
     const QRectF target(whole.left() + pixels.left() * scale_, whole.top() + pixels.top() * scale_,
                         pixels.width() * scale_, pixels.height() * scale_);
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    painter.drawImage(target, image_, pixels);
+    painter.drawImage(target, colored_.image, pixels);
   }
   if (scale_ >= kValuesFrom) paintValues(painter, pixels);
   painter.setPen(theme().border);
@@ -259,36 +124,36 @@ void PictureView::paintByRows(QPainter& painter, const QRectF& visible) {
   const bool grid = scale_ >= kGridFrom;
   if (seen_.size() != area.size()) seen_ = QImage(area.size(), QImage::Format_RGB32);
   seen_.setDevicePixelRatio(ratio);
-  const QImage hatch = hatched_ ? hatchTile() : QImage();
+  const QImage hatch = colored_.hatched ? hatchTile() : QImage();
   const auto sourceOf = [scale](double at, double origin, int size) {
     return std::clamp(static_cast<int>(std::floor((at + 0.5 - origin) / scale)), 0, size - 1);
   };
   std::vector<int> columns;
   for (int x = 0; x < area.width(); ++x)
-    columns.push_back(sourceOf(area.left() + x, origin_.x() * ratio, image_.width()));
+    columns.push_back(sourceOf(area.left() + x, origin_.x() * ratio, colored_.image.width()));
   const auto lined = [](QRgb color) {
     constexpr int kLine = 128, kShare = 70;  // of 255
     const auto mix = [](int c) { return c + (kLine - c) * kShare / 255; };
     return qRgb(mix(qRed(color)), mix(qGreen(color)), mix(qBlue(color)));
   };
-  int above = sourceOf(area.top(), origin_.y() * ratio, image_.height());
+  int above = sourceOf(area.top(), origin_.y() * ratio, colored_.image.height());
   bool same = false;  // is this row the one above once more?
   for (int y = 0; y < area.height(); ++y) {
-    const int row = sourceOf(area.top() + y, origin_.y() * ratio, image_.height());
+    const int row = sourceOf(area.top() + y, origin_.y() * ratio, colored_.image.height());
     const bool line = grid && row != above;
     auto* const to = reinterpret_cast<QRgb*>(seen_.scanLine(y));
-    same = !hatched_ && !striped_ && !line && row == above && same;
+    same = !colored_.hatched && !colored_.striped && !line && row == above && same;
     if (same) {
       std::copy_n(reinterpret_cast<const QRgb*>(seen_.constScanLine(y - 1)), columns.size(), to);
     } else {
-      const auto* const from = reinterpret_cast<const QRgb*>(image_.constScanLine(row));
-      const auto* const stripe =
-          hatched_ ? reinterpret_cast<const QRgb*>(hatch.constScanLine(y % hatch.height())) : nullptr;
+      const auto* const from = reinterpret_cast<const QRgb*>(colored_.image.constScanLine(row));
+      const auto* const behind =
+          colored_.hatched ? reinterpret_cast<const QRgb*>(hatch.constScanLine(y % hatch.height())) : nullptr;
       for (std::size_t x = 0; x < columns.size(); ++x) {
         QRgb color = from[columns[x]];
-        if (stripe != nullptr && qAlpha(color) == 0)
-          color = stripe[x % static_cast<std::size_t>(hatch.width())];
-        if (striped_) color = striped(color, static_cast<int>(x), y);
+        if (behind != nullptr && qAlpha(color) == 0)
+          color = behind[x % static_cast<std::size_t>(hatch.width())];
+        if (colored_.striped) color = stripe(color, static_cast<int>(x), y);
         const bool beside = grid && x > 0 && columns[x] != columns[x - 1];
         to[x] = line || beside ? lined(color) : color;
       }
@@ -322,7 +187,7 @@ void PictureView::paintValues(QPainter& painter, const QRect& pixels) {
       const std::size_t p = picture_->index(x, picture_->height - 1 - row);
       if (picture_->cells[p] != Picture::Cell::reached) continue;
       const QRectF cell(frame().left() + x * scale_, frame().top() + row * scale_, scale_, scale_);
-      glyphs.add(cell, picture_->texts(picture_->thread(p)), qGray(image_.pixel(x, row)) < 128);
+      glyphs.add(cell, picture_->texts(picture_->thread(p)), qGray(colored_.image.pixel(x, row)) < 128);
     }
   }
   glyphs.paint(painter);

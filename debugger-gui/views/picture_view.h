@@ -6,17 +6,9 @@
 #include <QWidget>
 #include <optional>
 
-#include "debugger-gui/views/picture.h"
+#include "debugger-gui/views/picture_colors.h"
 
 namespace shadestep::gui {
-
-struct Mapping {
-  enum class Channels { all, r, g, b, a };
-  Channels channels = Channels::all;
-  bool automatic = true;  // low and high follow the picture
-  double low = 0, high = 1;
-  double gamma = 1;
-};
 
 class PictureView : public QWidget {
   Q_OBJECT
@@ -32,7 +24,7 @@ class PictureView : public QWidget {
   void fit();
   void setScale(double);  // screen pixels per pixel; the picked one stays where it is, else the middle
   double scale() const { return scale_; }
-  const QImage& image() const { return image_; }
+  const QImage& image() const { return colored_.image; }
   // What a pixel holds, for a person; "" outside.
   QString describe(int x, int y) const;
   QPoint pixelAt(const QPointF& position) const;  // may lie outside of the picture
@@ -58,12 +50,7 @@ class PictureView : public QWidget {
   void resizeEvent(QResizeEvent*) override;
 
  private:
-  struct Channels {
-    std::size_t first = 0, end = 0;
-  };
-  Channels channelsShown() const;
-  void findRange();
-  void render();
+  void recolor();
   void zoomAround(const QPointF& position, double factor);
   void paintByRows(QPainter&, const QRectF& visible);
   static QImage hatchTile();
@@ -73,15 +60,13 @@ class PictureView : public QWidget {
 
   PicturePtr picture_;
   Mapping mapping_;
-  QImage image_;
+  Colored colored_;
   QImage seen_;  // the part of it that is seen, as large as that
   double scale_ = 1;
   QString nothing_;
   QPointF origin_;  // of the picture's upper left corner on the widget
   bool fitted_ = true;
-  bool hatched_ = false;  // some pixel's thread is not here
-  bool striped_ = false;  // some pixel is not finite
-  QTimer smooth_later_;   // while it runs, the picture is being enlarged: quick before smooth
+  QTimer smooth_later_;  // while it runs, the picture is being enlarged: quick before smooth
   std::optional<QPoint> picked_;
   std::optional<QPointF> dragged_from_;
   bool dragged_ = false;
