@@ -312,7 +312,7 @@ const StageSource* Debugger::source(session::Stage stage) const {
 }
 
 std::optional<session::Check> Debugger::check() const {
-  if (!values_) return std::nullopt;
+  if (!values_ || (place_ && place_->ended)) return std::nullopt;
   return values_->threads.check;
 }
 

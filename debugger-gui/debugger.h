@@ -23,7 +23,7 @@ struct ProgramSpec {
 struct Breakpoint {
   bool enabled = true;
   QString condition;  // a bool expression of the picked thread's values; empty = always
-  int ignore = 0;     // hits passed over first
+  int ignore = 0;     // of the times that the condition holds, so many are passed by first
 };
 
 // Which picture the picture view shows.
@@ -40,6 +40,8 @@ struct SavedPlace {
   QByteArray source;  // tells another text of the shader, in which the numbers of the position mean nothing
   session::Position position;
 };
+
+struct KnownConditions;
 
 class Debugger : public QObject {
   Q_OBJECT
@@ -228,6 +230,7 @@ class Debugger : public QObject {
   EmitsPtr emits_;
   RunPtr run_;
   QString run_reason_;
+  std::shared_ptr<KnownConditions> conditions_;  // of breakpoints, on that run; the worker's
   TargetPtr target_;
   LoopsPtr loops_;
   ProfilePtr profile_;

@@ -105,6 +105,7 @@ void Debugger::setFragments(const session::FragmentChoice& choice) {
     return debuggee.moveTo(position);
   });
   fragments_ = choice;
+  conditions_ = nullptr;  // another fragment may be the visible one
   askTarget();
 }
 

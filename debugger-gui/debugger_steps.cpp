@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "debugger-gui/backend/way_search.h"
 #include "debugger-gui/debugger.h"
-#include "session/values.h"
 
 namespace shadestep::gui {
 
@@ -129,34 +129,6 @@ void Debugger::moveToStep(int step) {
   }
 }
 
-namespace {
-
-struct Candidate {
-  session::Position position;
-  std::string condition;  // an expression; empty: always
-};
-
-// Is the condition true, or not zero, for the picked thread?
-bool holdsAt(Debuggee& debuggee, const Candidate& candidate, const Picked& picked) {
-  if (candidate.condition.empty()) return true;
-  const LookPtr look = debuggee.look({candidate.condition});
-  if (look->values.empty())
-    throw Error(Outcome::nothing_matches, "the breakpoint's condition has no value: " +
-                                              (look->refused.empty() ? "what it reads is not written yet"
-                                                                     : look->refused.front().second));
-  const session::ThreadValues& threads = look->threads;
-  const auto index = picked.in(threads);
-  const session::WatchedValues& value = look->values.front().watched;
-  if (!value.type.isScalar())
-    throw Error(Outcome::nothing_matches, "the breakpoint's condition is a " +
-                                              frontend::glslName(value.type) +
-                                              "; write one that is true or false");
-  if (!index || !threads.reachedAt(*index)) return false;
-  return session::componentAsDouble(value.type.basic, value.at(*index)) != 0;
-}
-
-}  // namespace
-
 void Debugger::resume(bool backwards) {
   if (!canStep()) return;
   if (!run_) {
@@ -167,9 +139,7 @@ void Debugger::resume(bool backwards) {
         true);
     return;
   }
-  const int here = runStep();
-  std::vector<Candidate> candidates;
-  QMap<int, int> visits;
+  std::vector<Visit> visits;
   const QMap<int, Breakpoint> marked = breakpoints();
   for (int i = 0; i < static_cast<int>(run_->positions.size()); ++i) {
     const session::Step& step = run_->run.steps[static_cast<std::size_t>(i)];
@@ -177,32 +147,37 @@ void Debugger::resume(bool backwards) {
     const auto breakpoint = marked.constFind(step.line);
     if (!position || breakpoint == marked.constEnd() || !breakpoint->enabled) continue;
     if (position->calls_done > 0) continue;  // behind its call: it was come by before it
-    if (visits[step.line]++ < breakpoint->ignore) continue;
-    if (backwards ? i >= here : i <= here) continue;
-    candidates.push_back({*position, breakpoint->condition.trimmed().toStdString()});
+    visits.push_back(
+        {i, *position, step.line, breakpoint->condition.trimmed().toStdString(), breakpoint->ignore});
   }
-  if (backwards) std::reverse(candidates.begin(), candidates.end());
-  const session::Position from = place_->position;
+  if (!conditions_ || conditions_->run != run_)
+    conditions_ = std::make_shared<KnownConditions>(KnownConditions{run_, {}});
+  struct Found {
+    Place place;
+    bool stops = false, cancelled = false;
+  };
   backend_.ask(
       backwards ? tr("Running back to a breakpoint") : tr("Running to a breakpoint"), "",
-      [candidates, from, picked = picked_](Debuggee& debuggee) {
+      [this, visits, here = runStep(), from = place_->position, backwards,
+       known = conditions_](Debuggee& debuggee) {
+        const auto asked = [this](std::size_t count) { backend_.reportCount(count); };
         try {
-          for (const Candidate& candidate : candidates) {
-            Place place = debuggee.moveTo(candidate.position);
-            if (holdsAt(debuggee, candidate, picked)) return std::pair(true, std::move(place));
-          }
+          if (auto place = findStop(debuggee, visits, here, backwards, *known, asked))
+            return Found{std::move(*place), true, false};
         } catch (const Error& error) {
           if (error.outcome() == Outcome::nothing_matches) debuggee.moveTo(from);
           throw;
         }
-        return std::pair(false, debuggee.moveTo(from));
+        const bool cancelled = debuggee.cancelled();
+        return Found{debuggee.moveTo(from), false, cancelled};
       },
-      [this, backwards](std::pair<bool, Place> found) {
-        placed(std::move(found.second));
-        if (!found.first)
-          Q_EMIT message(backwards ? tr("No breakpoint on the picked thread's way before this place")
-                                   : tr("No breakpoint on the rest of the picked thread's way"),
-                         false);
+      [this, backwards](Found found) {
+        placed(std::move(found.place));
+        if (found.stops) return;
+        Q_EMIT message(found.cancelled ? tr("Cancelled on the way to a breakpoint")
+                       : backwards     ? tr("No breakpoint on the picked thread's way before this place")
+                                       : tr("No breakpoint on the rest of the picked thread's way"),
+                       false);
       });
 }
 

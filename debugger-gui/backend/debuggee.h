@@ -81,6 +81,7 @@ class Debuggee {
   void endWait();    // asked for a second time, the program is not asked any more
   void close();      // endWait, and no program starts after it
   void interrupt();  // stops a running program at its next call
+  bool cancelled() const { return cancelled_; }
   void clearCancel() { cancelled_ = false; }
   int process() const { return process_; }  // 0: none
 

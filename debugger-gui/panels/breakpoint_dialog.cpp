@@ -18,7 +18,7 @@ BreakpointDialog::BreakpointDialog(int line, const Breakpoint& before, QWidget* 
   passed_->setSuffix(tr(" times"));
   passed_->setSpecialValueText(tr("never"));
   passed_->setToolTip(
-      tr("How often the picked thread comes by before it stops here, whether the condition holds or not"));
+      tr("How often the condition holds before the picked thread stops here, from the start of its way on"));
   auto* form = new QFormLayout(this);
   form->setContentsMargins(16, 16, 16, 12);
   form->setVerticalSpacing(10);

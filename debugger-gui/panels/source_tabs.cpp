@@ -4,6 +4,7 @@
 
 #include "debugger-gui/panels/breakpoint_dialog.h"
 #include "debugger-gui/style/theme.h"
+#include "debugger-gui/views/check_badge.h"
 #include "session/values.h"
 
 namespace shadestep::gui {
@@ -148,6 +149,7 @@ QString SourceTabs::describe(const QString& expression) const {
             look->threads.reachedAt(*thread)
                 ? QString::fromStdString(session::formatValue(value.valueAt(*thread))).toHtmlEscaped()
                 : tr("the picked thread does not get here"));
+      lines.push_back(textOf(look->threads.check).rich());
       return lines.join("<br>");
     }
     const qsizetype cut = std::max(variable.lastIndexOf('.'), variable.lastIndexOf('['));

@@ -39,36 +39,37 @@ void CheckBadge::paintEvent(QPaintEvent*) {
                    fontMetrics().elidedText(text_, Qt::ElideRight, rest.width()));
 }
 
-void CheckBadge::setCheck(const std::optional<session::Check>& check) {
-  QString name = "unknown";
-  QString text = tr("no values yet");
-  QColor color = theme().neutral;
-  QString tip;
-  if (check) {
-    tip = QString::fromStdString(session::describe(*check));
-    if (!check->compared_at_all) {
-      text = tr("not compared");
-    } else if (check->identical()) {
-      name = "check";
-      text = tr("identical");
-      color = theme().good;
-    } else {
-      name = "differs";
-      text = tr("%1 of %2 differ")
+CheckText textOf(const std::optional<session::Check>& check) {
+  if (!check) return {"unknown", QObject::tr("no values yet"), theme().neutral};
+  CheckText found{"unknown", QObject::tr("not compared"), theme().neutral};
+  if (check->identical()) {
+    found = {"check", QObject::tr("identical"), theme().good};
+  } else if (check->compared_at_all) {
+    found = {"differs",
+             QObject::tr("%1 of %2 differ")
                  .arg(QString::fromStdString(session::withThousands(check->differing)),
-                      QString::fromStdString(session::withThousands(check->compared)));
-      if (check->largest) text += tr(" by up to %1").arg(check->largest->by, 0, 'g', 2);
-      color = theme().bad;
-    }
-    if (!check->left_out.empty()) text += " *";
+                      QString::fromStdString(session::withThousands(check->compared))),
+             theme().bad};
+    if (check->largest) found.text += QObject::tr(" by up to %1").arg(check->largest->by, 0, 'g', 2);
   }
-  mark_ = icon(name).pixmap(QSize(kMark, kMark), devicePixelRatio());
-  text_ = text;
-  color_ = color;
+  if (!check->left_out.empty()) found.text += " *";
+  return found;
+}
+
+QString CheckText::rich() const {
+  const QString sign = mark == "check" ? "✓ " : mark == "differs" ? "✗ " : QString();
+  return QString("<span style='color:%1'>%2%3</span>").arg(color.name(), sign, text.toHtmlEscaped());
+}
+
+void CheckBadge::setCheck(const std::optional<session::Check>& check) {
+  const CheckText found = textOf(check);
+  mark_ = icon(found.mark).pixmap(QSize(kMark, kMark), devicePixelRatio());
+  text_ = found.text;
+  color_ = found.color;
   updateGeometry();
   update();
-  setToolTip(tip);
-  setAccessibleName(tr("Check: %1").arg(text));
+  setToolTip(check ? QString::fromStdString(session::describe(*check)) : QString());
+  setAccessibleName(tr("Check: %1").arg(text_));
 }
 
 }  // namespace shadestep::gui

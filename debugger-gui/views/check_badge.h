@@ -9,6 +9,16 @@
 
 namespace shadestep::gui {
 
+// What stands beside a value.
+struct CheckText {
+  QString mark;  // the name of its icon
+  QString text;
+  QColor color;
+  // The same for rich text, where there is no room for an icon.
+  QString rich() const;
+};
+CheckText textOf(const std::optional<session::Check>&);
+
 class CheckBadge : public QWidget {
   Q_OBJECT
  public:

@@ -69,6 +69,7 @@ TEST_F(Source, TheMouseOverANameShowsItsValue) {
   const QString text = tooltip("p = gl", kPosition);
   EXPECT_TRUE(text.contains("vec2")) << text.toStdString();
   EXPECT_TRUE(text.contains("vec2(0.28125, 0.53125)")) << text.toStdString();
+  EXPECT_TRUE(text.contains("identical")) << text.toStdString();
   EXPECT_EQ(tooltip("=", kPosition), "");
 }
 
@@ -113,12 +114,17 @@ TEST_F(Source, ABreakpointPassesByTheFirstVisits) {
   window_.press("run");
   EXPECT_EQ(window_.debugger().place()->line, kInFirstLoop);
   EXPECT_EQ(window_.shown("i"), "3");
-  edit("i != 3", 3);
+  edit("i != 1", 3);
   window_.press("restart");
   window_.press("run");
-  EXPECT_EQ(window_.shown("i"), "4");
+  EXPECT_EQ(window_.shown("i"), "4") << "0, 2 and 3 are the three at which it holds";
   window_.press("run-back");
-  EXPECT_EQ(window_.shown("i"), "4") << "the third is the first, and left out";
+  EXPECT_EQ(window_.shown("i"), "4") << "the first that is not passed by";
+  edit("i != 1", 2);
+  window_.press("run-back");
+  EXPECT_EQ(window_.shown("i"), "3") << "counted from the start backwards, too";
+  window_.press("run-back");
+  EXPECT_EQ(window_.shown("i"), "3");
 }
 
 TEST_F(Source, TheMarginSaysHowOftenLinesRunAndWhatTheyCost) {
