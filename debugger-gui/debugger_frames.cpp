@@ -78,8 +78,13 @@ void Debugger::addList(const FrameList& list) {
     for (const auto& [name, count] : list.calls) known.calls[name] += count;
     known.last = list.last;
     known.more = list.more;
+    known.behind = list.behind;
   } else if (list.first < known.first || list.last > known.last) {
+    const DrawCallsPtr behind = known.behind;
     known = list;
+    if (!known.behind) known.behind = behind;
+  } else if (list.behind) {
+    known.behind = list.behind;
   }
 }
 

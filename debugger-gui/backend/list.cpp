@@ -24,12 +24,15 @@ class CallKeeper {
     }
   }
   // Null: none of them were kept.
-  DrawCallsPtr take(const session::DrawStop& draw) {
+  DrawCallsPtr take() {
     DrawCalls before = std::exchange(now_, {});
-    at_draw_ = true;
-    draw_ = draw.call;
     if (before.calls.empty() && before.left_out > 0) return nullptr;
     return std::make_shared<const DrawCalls>(std::move(before));
+  }
+  DrawCallsPtr takeBefore(const session::DrawStop& draw) {
+    at_draw_ = true;
+    draw_ = draw.call;
+    return take();
   }
 
  private:
@@ -89,7 +92,7 @@ FrameList Debuggee::list(const ListRequest& request, const std::function<void(co
   const auto see = [&](bool whole_way) {
     DrawEntry draw = entry();
     if (request.what == Listing::pictures) draw.thumbnail = thumbnail();
-    DrawCallsPtr calls = keeper.take(draw.stop);
+    DrawCallsPtr calls = keeper.takeBefore(draw.stop);
     if (whole_way) draw.calls = std::move(calls);
     list.last = draw.stop.draw;
     ++listed;
@@ -100,7 +103,7 @@ FrameList Debuggee::list(const ListRequest& request, const std::function<void(co
   } else {
     goTo(request.frame, from_before ? request.first - 1 : request.first);
     if (from_before) {
-      keeper.take(*stop_);
+      keeper.takeBefore(*stop_);
     } else {
       see(false);
       ++list.calls[stop_->call];  // it is under way, and not told of
@@ -116,7 +119,7 @@ FrameList Debuggee::list(const ListRequest& request, const std::function<void(co
   session_->tellCalls(filter, [&](const session::LoggedCall& call) {
     if (call.frame == list.frame && listed > 0) ++list.calls[call.name];
     if (log_calls_) keep(call);
-    keeper.add(call);
+    if (call.frame == list.frame) keeper.add(call);
   });
   if (from_begin && list.frame > 0) goToFrame(list.frame);
   list.more = true;
@@ -127,6 +130,7 @@ FrameList Debuggee::list(const ListRequest& request, const std::function<void(co
       continue;
     }
     list.more = reason == StopReason::interrupted;
+    if (!list.more) list.behind = keeper.take();
     break;
   }
   return list;

@@ -56,6 +56,7 @@ struct FrameList {
   std::uint64_t last = 0;  // the last one listed
   bool more = false;       // the frame goes on behind it, or may do so
   std::map<std::string, std::uint64_t> calls;
+  DrawCallsPtr behind;  // what is called behind the last draw of the frame; null: not come to, or too many
 };
 
 struct StageSource {

@@ -23,8 +23,22 @@ quintptr idOfCalls(quintptr frame, std::uint64_t draw) {
 quintptr frameOf(quintptr id) {
   return id & ((quintptr(1) << kFrameBits) - 1);
 }
-bool isCall(quintptr id) {
+bool isOfCall(quintptr id) {
   return id != kFrameRow && id >> kFrameBits != 0;
+}
+
+// The frame's end stands behind its draws as if it was one: what is called before it is called behind the
+// last draw.
+constexpr std::uint64_t kEnd = (std::uint64_t(1) << (64 - kFrameBits)) - 2;
+bool isEnd(const DrawEntry& entry) {
+  return entry.stop.draw == kEnd;
+}
+DrawEntry endOf(std::uint64_t frame, const DrawCallsPtr& calls) {
+  DrawEntry end;
+  end.stop.frame = frame;
+  end.stop.draw = kEnd;
+  end.calls = calls;
+  return end;
 }
 
 bool sameCalls(const DrawCallsPtr& a, const DrawCallsPtr& b) {
@@ -61,6 +75,10 @@ bool DrawModel::refresh() {
       frames.push_back({number, debugger_.listed().value(number).more, {}});
     frames.back().draws.push_back(draw);
   }
+  for (Frame& frame : frames)
+    if (const DrawCallsPtr behind = debugger_.listed().value(frame.number).behind;
+        behind && !behind->calls.empty())
+      frame.draws.push_back(endOf(frame.number, behind));
   const bool grown = std::equal(frames_.begin(), frames_.end(), frames.begin(), frames.end(),
                                 [](const Frame& a, const Frame& b) { return a.grows(b).has_value(); });
   if (!grown) {
@@ -121,7 +139,7 @@ void DrawModel::takeCalls(int row, Frame& now) {
 QModelIndex DrawModel::index(int row, int column, const QModelIndex& parent) const {
   if (row < 0 || row >= rowCount(parent)) return {};
   if (!parent.isValid()) return createIndex(row, column, kFrameRow);
-  const DrawEntry* draw = drawAt(parent);
+  const DrawEntry* draw = entryAt(parent);
   return createIndex(row, column,
                      draw == nullptr ? static_cast<quintptr>(parent.row())
                                      : idOfCalls(parent.internalId(), draw->stop.draw));
@@ -130,30 +148,45 @@ QModelIndex DrawModel::index(int row, int column, const QModelIndex& parent) con
 QModelIndex DrawModel::parent(const QModelIndex& child) const {
   if (!child.isValid() || child.internalId() == kFrameRow) return {};
   const quintptr frame = frameOf(child.internalId());
-  if (const DrawEntry* draw = drawOfCall(child))
+  if (const DrawEntry* draw = entryOfCall(child))
     return createIndex(static_cast<int>(draw - frames_[frame].draws.data()), 0, frame);
   return createIndex(static_cast<int>(frame), 0, kFrameRow);
 }
 
 int DrawModel::rowCount(const QModelIndex& parent) const {
   if (!parent.isValid()) return static_cast<int>(frames_.size());
-  if (parent.column() > 0 || isCall(parent.internalId())) return 0;
-  if (const DrawEntry* draw = drawAt(parent)) return rowsUnder(*draw);
+  if (parent.column() > 0 || isOfCall(parent.internalId())) return 0;
+  if (const DrawEntry* draw = entryAt(parent)) return rowsUnder(*draw);
   return static_cast<int>(frames_[static_cast<std::size_t>(parent.row())].draws.size());
 }
 
-const DrawEntry* DrawModel::drawAt(const QModelIndex& index) const {
-  if (!index.isValid() || index.internalId() == kFrameRow || isCall(index.internalId())) return nullptr;
+const DrawEntry* DrawModel::entryAt(const QModelIndex& index) const {
+  if (!index.isValid() || index.internalId() == kFrameRow || isOfCall(index.internalId())) return nullptr;
   return &frames_[index.internalId()].draws[static_cast<std::size_t>(index.row())];
 }
 
-const DrawEntry* DrawModel::drawOfCall(const QModelIndex& index) const {
-  if (!index.isValid() || !isCall(index.internalId())) return nullptr;
+const DrawEntry* DrawModel::drawAt(const QModelIndex& index) const {
+  const DrawEntry* entry = entryAt(index);
+  return entry == nullptr || isEnd(*entry) ? nullptr : entry;
+}
+
+const DrawEntry* DrawModel::entryOfCall(const QModelIndex& index) const {
+  if (!index.isValid() || !isOfCall(index.internalId())) return nullptr;
   const std::uint64_t number = (index.internalId() >> kFrameBits) - 1;
   const auto& draws = frames_[frameOf(index.internalId())].draws;
   const auto at = std::lower_bound(draws.begin(), draws.end(), number,
                                    [](const DrawEntry& one, std::uint64_t n) { return one.stop.draw < n; });
   return at == draws.end() ? nullptr : &*at;
+}
+
+const DrawEntry* DrawModel::drawOfCall(const QModelIndex& index) const {
+  const DrawEntry* entry = entryOfCall(index);
+  return entry == nullptr || isEnd(*entry) ? nullptr : entry;
+}
+
+bool DrawModel::isCall(const QModelIndex& index) const {
+  const DrawEntry* entry = entryOfCall(index);
+  return entry != nullptr && entry->calls && index.row() < static_cast<int>(entry->calls->calls.size());
 }
 
 QModelIndex DrawModel::indexOf(std::uint64_t frame, std::uint64_t draw) const {
@@ -186,23 +219,36 @@ QVariant DrawModel::callData(const DrawEntry& draw, int row, int role) const {
   return tr("Double-click to list the calls before it");
 }
 
+QVariant DrawModel::frameData(const Frame& frame, int column, int role) const {
+  if (role == Qt::ForegroundRole) return theme().faint;
+  if (role != Qt::DisplayRole || column != kDraw) return {};
+  const std::size_t draws = frame.draws.size() - (isEnd(frame.draws.back()) ? 1 : 0);
+  const QString seen = draws == 1 ? tr("Frame %1, one draw seen").arg(frame.number)
+                                  : tr("Frame %1, %2 draws seen")
+                                        .arg(QString::number(frame.number),
+                                             QString::fromStdString(session::withThousands(draws)));
+  return frame.more ? tr("%1, more to list").arg(seen) : seen;
+}
+
+QVariant DrawModel::endData(const DrawEntry& end, int column, int role) const {
+  if (role == Qt::ForegroundRole) return theme().faint;
+  if (role == Qt::ToolTipRole) return tr("What is called behind the last draw of the frame");
+  if (role != Qt::DisplayRole) return {};
+  const std::uint64_t calls = end.calls->calls.size() + end.calls->left_out;
+  return column == kDraw   ? tr("end")
+         : column == kCall ? tr("%1 calls").arg(QString::fromStdString(session::withThousands(calls)))
+                           : QVariant();
+}
+
 QVariant DrawModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
-  if (const DrawEntry* draw = drawOfCall(index))
+  if (const DrawEntry* draw = entryOfCall(index))
     return index.column() == kDraw ? callData(*draw, index.row(), role) : QVariant();
+  const DrawEntry* entry = entryAt(index);
+  if (entry != nullptr && isEnd(*entry)) return endData(*entry, index.column(), role);
   if (role == kSearched) role = Qt::DisplayRole;
-  const DrawEntry* entry = drawAt(index);
-  if (entry == nullptr) {
-    const Frame& frame = frames_[static_cast<std::size_t>(index.row())];
-    if (role == Qt::DisplayRole && index.column() == kDraw) {
-      const QString seen = frame.draws.size() == 1
-                               ? tr("Frame %1, one draw seen").arg(frame.number)
-                               : tr("Frame %1, %2 draws seen").arg(frame.number).arg(frame.draws.size());
-      return frame.more ? tr("%1, more to list").arg(seen) : seen;
-    }
-    if (role == Qt::ForegroundRole) return theme().faint;
-    return {};
-  }
+  if (entry == nullptr)
+    return frameData(frames_[static_cast<std::size_t>(index.row())], index.column(), role);
   if (role == Qt::DisplayRole) {
     switch (index.column()) {
       case kDraw:
@@ -210,8 +256,12 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
       case kCall:
         return QString::fromStdString(entry->stop.call);
       case kCount: {
-        QString text = entry->stop.count < 0 ? QString("?") : QString::number(entry->stop.count);
-        if (entry->stop.mode != 0xffffffffU)
+        const bool primitives = entry->stop.mode != 0xffffffffU;
+        if (!primitives && entry->stop.count < 0) return {};  // a dispatch
+        QString text = entry->stop.count < 0 ? QString("?")
+                                             : QString::fromStdString(session::withThousands(
+                                                   static_cast<std::uint64_t>(entry->stop.count)));
+        if (primitives)
           text += " " + QString::fromStdString(session::primitiveModeName(entry->stop.mode))
                             .mid(3)
                             .toLower()
@@ -227,7 +277,12 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
     }
   }
   if (role == Qt::DecorationRole && index.column() == kDraw) {
-    if (!entry->thumbnail.isNull()) return QIcon(QPixmap::fromImage(entry->thumbnail));
+    if (!entry->thumbnail.isNull()) {
+      const QPixmap picture = QPixmap::fromImage(entry->thumbnail);
+      QIcon shown(picture);
+      shown.addPixmap(picture, QIcon::Selected);  // else it is tinted there: other colours than the draw's
+      return shown;
+    }
     if (isHere(*entry)) return icon("start");
   }
   if (role == Qt::FontRole && isHere(*entry)) {
@@ -238,7 +293,12 @@ QVariant DrawModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::ForegroundRole && !entry->reason.empty()) return theme().faint;
   if (role == Qt::ToolTipRole)
     return entry->reason.empty()
-               ? tr("%1. Double-click to go there").arg(QString::fromStdString(entry->stop.call))
+               ? tr("%1 by program %2 into framebuffer %3, %4 × %5. Double-click to go there")
+                     .arg(QString::fromStdString(entry->stop.call))
+                     .arg(entry->program)
+                     .arg(entry->framebuffer)
+                     .arg(entry->viewport[2])
+                     .arg(entry->viewport[3])
                : QString::fromStdString(entry->reason);
   return {};
 }

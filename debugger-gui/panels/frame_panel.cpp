@@ -29,6 +29,14 @@ void DrawTree::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
   itemDelegate()->paint(painter, item, first);
 }
 
+void DrawTree::resizeEvent(QResizeEvent* event) {
+  constexpr int kForProgram = 48, kForTarget = 64;  // letters
+  const int letters = viewport()->width() / std::max(1, fontMetrics().averageCharWidth());
+  setColumnHidden(DrawModel::kProgram, letters < kForProgram);
+  setColumnHidden(DrawModel::kTarget, letters < kForTarget);
+  QTreeView::resizeEvent(event);
+}
+
 FramePanel::FramePanel(Debugger& debugger, QWidget* parent)
     : QWidget(parent),
       debugger_(debugger),
@@ -137,13 +145,16 @@ void FramePanel::showMenu(const QPoint& position) {
   const QModelIndex shown = tree_->indexAt(position);
   const DrawEntry* call_of = drawOfCall(shown);
   const DrawEntry* draw = call_of != nullptr ? call_of : drawAt(shown);
-  if (draw == nullptr) return;
-  const session::DrawStop stop = draw->stop;
   QMenu menu(this);
-  if (call_of != nullptr && call_of->calls)
+  if (model_.isCall(filter_.mapToSource(shown)))
     menu.addAction(tr("Copy the call"), this, [text = shown.siblingAtColumn(0).data().toString()] {
       QApplication::clipboard()->setText(text);
     });
+  if (draw != nullptr) addToMenu(menu, draw->stop);
+  if (!menu.isEmpty()) menu.exec(tree_->viewport()->mapToGlobal(position));
+}
+
+void FramePanel::addToMenu(QMenu& menu, const session::DrawStop& stop) {
   menu.addAction(tr("Go to this draw"), this, [this, stop] { debugger_.goTo(stop.frame, stop.draw); });
   menu.addAction(tr("Go to this draw in the next frame"), this,
                  [this, stop] { debugger_.goTo(stop.frame + 1, stop.draw); });
@@ -153,7 +164,6 @@ void FramePanel::showMenu(const QPoint& position) {
                  [this, stop] { debugger_.list(stop.frame, stop.draw, Listing::pictures); });
   menu.addAction(tr("Calls before this draw and the next ones"), this,
                  [this, stop] { debugger_.list(stop.frame, stop.draw, Listing::calls); });
-  menu.exec(tree_->viewport()->mapToGlobal(position));
 }
 
 }  // namespace shadestep::gui

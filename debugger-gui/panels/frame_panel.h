@@ -17,6 +17,7 @@ class DrawTree : public QTreeView {
 
  protected:
   void drawRow(QPainter*, const QStyleOptionViewItem&, const QModelIndex&) const override;
+  void resizeEvent(QResizeEvent*) override;  // program and target stand there where there is room for them
 };
 
 class FramePanel : public QWidget {
@@ -33,6 +34,7 @@ class FramePanel : public QWidget {
   void showFound();
   void activate(const QModelIndex& shown);
   void showMenu(const QPoint&);
+  void addToMenu(QMenu&, const session::DrawStop&);
   const DrawEntry* drawAt(const QModelIndex& shown) const;
   const DrawEntry* drawOfCall(const QModelIndex& shown) const;
 

@@ -98,11 +98,32 @@ TEST_F(FrameTree, TheFirstCallsOfAFrameAreThoseFromItsBegin) {
   EXPECT_EQ(window_.debugger().stop()->draw.stop.frame, 1U);
 }
 
+// The last names of the log are those behind the last draw.
+TEST_F(FrameTree, ShowsTheCallsBehindTheLastDraw) {
+  const std::vector<std::string> program{binary("programs/frames"), "3"};
+  for (const int frame : {0, 1}) {
+    const auto names = namesBefore(program, frame);
+    ASSERT_EQ(names.size(), 3U);
+    ASSERT_FALSE(names.back().isEmpty());
+    start(program, static_cast<std::uint64_t>(frame));
+    window_.press("list");
+    const QModelIndex above = draw(static_cast<std::uint64_t>(frame), 0).parent();
+    EXPECT_TRUE(above.data().toString().contains("2 draws")) << above.data().toString().toStdString();
+    ASSERT_EQ(model().rowCount(above), 3);
+    const QModelIndex end = model().index(2, 0, above);
+    EXPECT_EQ(end.data().toString(), "end");
+    // The log of the command line ends before the call that ends the frame.
+    EXPECT_EQ(namesIn(under(end)), names.back() + QStringList("eglSwapBuffers"));
+    Q_EMIT panel_->tree().activated(end);  // it is no place to go to
+    EXPECT_EQ(window_.debugger().stop()->draw.stop.draw, 0U);
+  }
+}
+
 TEST_F(FrameTree, FindsCalls) {
   start({binary("programs/several-draws")});
   window_.press("list");
   const QModelIndex frame = model().index(0, 0);
-  ASSERT_EQ(model().rowCount(frame), 3);
+  ASSERT_EQ(model().rowCount(frame), 4) << "its draws, and what is behind them";
   panel_->search().setText("gluseprogram");
   ASSERT_EQ(model().rowCount(model().index(0, 0)), 1);
   EXPECT_EQ(namesIn(under(draw(0, 2))), QStringList("glUseProgram"));
@@ -110,7 +131,7 @@ TEST_F(FrameTree, FindsCalls) {
   panel_->search().setText("list the calls");  // what the tree says itself is not searched
   EXPECT_EQ(model().rowCount(), 0);
   panel_->search().clear();
-  EXPECT_EQ(model().rowCount(model().index(0, 0)), 3);
+  EXPECT_EQ(model().rowCount(model().index(0, 0)), 4);
 }
 
 // Draws that come in before others leave theirs where they are.
@@ -125,7 +146,7 @@ TEST_F(FrameTree, StaysUnfoldedWhileItGrows) {
   ASSERT_TRUE(text.startsWith("glUseProgram")) << text.toStdString();
   window_.debugger().goTo(0, 1);
   window_.settle();
-  ASSERT_EQ(model().rowCount(model().index(0, 0)), 3);
+  ASSERT_EQ(model().rowCount(model().index(0, 0)), 4);
   EXPECT_TRUE(panel_->tree().isExpanded(draw(0, 2)));
   EXPECT_EQ(call.data().toString(), text);
   EXPECT_EQ(call.parent(), shown.mapToSource(draw(0, 2)));
