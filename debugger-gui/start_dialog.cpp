@@ -99,16 +99,23 @@ StartDialog::StartDialog(const ProgramSpec& spec, QWidget* parent)
   auto* at = new QHBoxLayout;
   at->addWidget(new QLabel(tr("frame")));
   at->addWidget(frame_);
+  at->addSpacing(8);
   at->addWidget(new QLabel(tr("draw")));
   at->addWidget(draw_);
   at->addStretch();
   auto* form = new QFormLayout(this);
   form->setContentsMargins(16, 16, 16, 12);
   form->setVerticalSpacing(10);
-  form->addRow(tr("&Program"), with_button(command_, true));
-  form->addRow(tr("&Folder"), with_button(directory_, false));
+  // A form gives a row of several fields no key of its own.
+  const auto label = [](const QString& text, QWidget* field) {
+    auto* made = new QLabel(text);
+    made->setBuddy(field);
+    return made;
+  };
+  form->addRow(label(tr("&Program"), command_), with_button(command_, true));
+  form->addRow(label(tr("&Folder"), directory_), with_button(directory_, false));
   form->addRow(tr("&Environment"), environment_);
-  form->addRow(tr("&Stop first at"), at);
+  form->addRow(label(tr("&Stop first at"), frame_), at);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   auto* run = buttons->addButton(tr("Run"), QDialogButtonBox::AcceptRole);
   run->setDefault(true);

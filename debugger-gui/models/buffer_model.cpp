@@ -61,6 +61,8 @@ QVariant BufferModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant BufferModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (role == Qt::TextAlignmentRole && orientation == Qt::Horizontal && format_)
+    return int(Qt::AlignRight | Qt::AlignVCenter);
   if (role != Qt::DisplayRole) return {};
   if (orientation == Qt::Vertical) return section;
   if (section == 0) return tr("Byte");

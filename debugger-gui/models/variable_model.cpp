@@ -57,6 +57,16 @@ const char* groupOf(frontend::Storage storage) {
   }
 }
 
+// Without the numbers that are 0 for most: instances, invocations.
+QString shortNameOf(const Picked& picked) {
+  if (picked.pixel) return QString("%1, %2").arg(picked.pixel->x).arg(picked.pixel->y);
+  session::ThreadName name = picked.thread;
+  if (name.size() > 1)
+    name.erase(std::remove_if(name.begin() + 1, name.end(), [](const auto& one) { return one.second == 0; }),
+               name.end());
+  return textOf(name);
+}
+
 }  // namespace
 
 VariableModel::VariableModel(const Debugger& debugger, QObject* parent)
@@ -210,7 +220,8 @@ bool VariableModel::changed(const Node& node) const {
   return !std::equal(now->at(*here) + first, now->at(*here) + first + count, before->at(*there) + first);
 }
 
-QVariant VariableModel::range(const Node& node, bool high) const {
+// Rounded to what a column shows; exactly in its tooltip.
+QVariant VariableModel::range(const Node& node, bool high, bool exactly) const {
   const Look::Value* const found =
       debugger_.values() ? debugger_.values()->find(node.target.variable) : nullptr;
   if (found == nullptr) return {};
@@ -221,9 +232,14 @@ QVariant VariableModel::range(const Node& node, bool high) const {
   if (statistics[component].finite == 0) return {};
   const double number = high ? statistics[component].max : statistics[component].min;
   const frontend::Basic basic = frontend::components(found->watched.type)[component].basic;
-  return QString::fromStdString(basic == frontend::Basic::float_
-                                    ? profiler::exactText(static_cast<float>(number))
-                                    : profiler::exactText(number));
+  const QString exact = QString::fromStdString(basic == frontend::Basic::float_
+                                                   ? profiler::exactText(static_cast<float>(number))
+                                                   : profiler::exactText(number));
+  constexpr int kShort = 9;  // characters
+  const bool whole = basic != frontend::Basic::float_ && basic != frontend::Basic::double_;
+  if (exactly || whole || exact.size() <= kShort) return exact;
+  const QString rounded = QString::number(number, 'g', 5);
+  return rounded.contains('e') ? QString::number(number, 'g', 4) : rounded;
 }
 
 QVariant VariableModel::data(const QModelIndex& index, int role) const {
@@ -238,7 +254,7 @@ QVariant VariableModel::data(const QModelIndex& index, int role) const {
         return is_group ? QString() : valueText(node);
       case kMin:
       case kMax:
-        return is_group ? QVariant() : range(node, index.column() == kMax);
+        return is_group ? QVariant() : range(node, index.column() == kMax, false);
       default:
         return node.type;
     }
@@ -263,19 +279,21 @@ QVariant VariableModel::data(const QModelIndex& index, int role) const {
                : tr("The picked thread has not written it on its way here; others may have");
   if (role == Qt::ToolTipRole && !is_group && index.column() == kValue) return valueText(node);
   if (role == Qt::ToolTipRole && !is_group && (index.column() == kMin || index.column() == kMax))
-    return range(node, index.column() == kMax);
+    return range(node, index.column() == kMax, true);
   if (role == Qt::ToolTipRole && index.column() == kName && !node.type.isEmpty())
     return node.type + " " + node.name;
   return {};
 }
 
 QVariant VariableModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation == Qt::Horizontal && role == Qt::ToolTipRole && section == kValue)
+    return debugger_.pickedName();
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
   switch (section) {
     case kName:
       return tr("Name");
     case kValue: {
-      const QString name = debugger_.pickedName();
+      const QString name = shortNameOf(debugger_.picked());
       return name.isEmpty() ? tr("Value (pick a thread)") : tr("Value at %1").arg(name);
     }
     case kMin:

@@ -43,7 +43,7 @@ class VariableModel : public QAbstractItemModel {
   bool isLarge(const Node&) const;
   bool changed(const Node&) const;
   const session::WatchedValues* valueOf(const LookPtr&, const Node&) const;
-  QVariant range(const Node&, bool high) const;
+  QVariant range(const Node&, bool high, bool exactly) const;
 
   const Debugger& debugger_;
   std::unique_ptr<Node> root_;

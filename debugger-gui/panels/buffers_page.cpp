@@ -19,6 +19,7 @@ constexpr std::pair<Kind, const char*> kKinds[] = {
     {Kind::uint32, "uint"},    {Kind::int16, "int16"},  {Kind::uint16, "uint16"},  {Kind::int8, "int8"},
     {Kind::uint8, "uint8"},    {Kind::int64, "int64"},  {Kind::uint64, "uint64"},  {Kind::hex8, "hex bytes"},
     {Kind::hex32, "hex words"}};
+constexpr int kWhyNot = 5;    // a column
 constexpr int kMembers = -1;  // the item's number that stands for the block's members
 
 }  // namespace
@@ -46,6 +47,7 @@ BuffersPage::BuffersPage(Debugger& debugger, QWidget* parent)
   contents_->setWordWrap(false);
   contents_->setTabKeyNavigation(false);  // Tab leads on
   contents_->setAccessibleName(tr("What stands in the buffer"));
+  contents_->setToolTip(tr("What stands there before the draw"));
   contents_->verticalHeader()->setDefaultSectionSize(contents_->fontMetrics().height() + 6);
   contents_->horizontalHeader()->setStretchLastSection(true);
   contents_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
@@ -68,6 +70,7 @@ BuffersPage::BuffersPage(Debugger& debugger, QWidget* parent)
   split->addWidget(list_);
   split->addWidget(right);
   split->setStretchFactor(1, 1);
+  split->setSizes({400, 420});
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
   column->addWidget(split);
@@ -114,6 +117,8 @@ void BuffersPage::refresh() {
     item->setToolTip(5, item->text(5));
     list_->addTopLevelItem(item);
   }
+  list_->setColumnHidden(kWhyNot, std::none_of(debugger_.buffers()->begin(), debugger_.buffers()->end(),
+                                               [](const auto& one) { return !one.reason.empty(); }));
   note_->setText(list_->topLevelItemCount() > 0 ? tr("A row shows what stands in its buffer")
                                                 : tr("This draw reads no buffers"));
 }
@@ -144,6 +149,8 @@ void BuffersPage::takeFormat() {
   const bool members = chosen_kind == kMembers;
   for (QWidget* one : std::initializer_list<QWidget*>{components_, stride_, normalized_})
     one->setVisible(!members);
+  contents_->verticalHeader()->setVisible(!members);              // an element's number; members have names
+  contents_->horizontalHeader()->setStretchLastSection(members);  // numbers stay side by side
   if (members) return model_.read(std::nullopt);
   session::ElementFormat format;
   format.kind = static_cast<Kind>(chosen_kind);
@@ -165,7 +172,7 @@ void BuffersPage::arrived() {
         tr("%1 members more").arg(QString::fromStdString(session::withThousands(buffer->values.left_out))));
   if (buffer->bound.divisor > 0)
     notes.push_back(tr("a new element every %n instances", "", buffer->bound.divisor));
-  note_->setText(notes.isEmpty() ? tr("before the draw") : notes.join("; "));
+  note_->setText(notes.join("; "));
   contents_->resizeColumnsToContents();
   refreshCheck();
 }

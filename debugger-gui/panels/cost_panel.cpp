@@ -112,12 +112,16 @@ void CostPanel::refresh() {
     const profiler::ScaledUnit unit = profiler::scaledUnit(profile.unit, value);
     return text(profiler::readable(value * unit.factor)) + kNoBreak + text(unit.name);
   };
+  const QString who = profile.stage == session::Stage::fragment ? tr("pixels") : tr("threads");
+  const QString often = profile.passes == 1 ? tr("once each") : tr("%1 times each").arg(profile.passes);
   QString summary =
-      tr("%1: median %2, 95 % below %3; %4 of %5 pixels measured, %6 times each, in %7 s; reproducible to %8")
+      tr("%1: median %2, 95 % below %3; %4 of %5 %6 measured, %7, in %8 s; ")
           .arg(text(profiler::methodName(profile.method)), cost(profile.median), cost(profile.p95),
-               text(session::withThousands(profile.measured)), text(session::withThousands(profile.covered)))
-          .arg(profile.passes)
-          .arg(text(profiler::readable(profile.seconds, 3)), percent(profile.spread, 2));
+               text(session::withThousands(profile.measured)), text(session::withThousands(profile.covered)),
+               who, often, text(profiler::readable(profile.seconds, 3)));
+  summary += profile.method == profiler::Method::count
+                 ? tr("counted exactly")
+                 : tr("reproducible to %1").arg(percent(profile.spread, 2));
   if (profile.reconstruction)
     summary +=
         tr("; the rest reconstructed with an error of %1").arg(percent(profile.reconstruction->error, 2));

@@ -325,7 +325,9 @@ void PicturePanel::showHovered(int x, int y) {
     y = picked->y();
   }
   QString text = view_->describe(x, y);
-  if (text.isEmpty()) text = view_->picture() ? tr("A click picks a thread") : QString();
+  const PicturePtr& picture = view_->picture();
+  const bool picks = picture && (!picture->who || picture->name);
+  if (text.isEmpty()) text = picks ? tr("A click picks a thread") : QString();
   // A number that is cut off would be another number.
   hovered_->setText(hovered_->fontMetrics().elidedText(text, Qt::ElideRight, hovered_->width()));
   hovered_->setToolTip(text);

@@ -4,6 +4,7 @@
 
 #include "debugger-gui/panels/page.h"
 #include "debugger-gui/style/theme.h"
+#include "session/text.h"
 #include "session/values.h"
 
 namespace shadestep::gui {
@@ -138,8 +139,10 @@ void RunPanel::refresh() {
     return summary_->setText(debugger_.runReason().isEmpty() ? tr("No recording of %1 yet").arg(name)
                                                              : debugger_.runReason());
   }
-  QString text = run->run.steps.size() == 1 ? tr("%1: one step").arg(name)
-                                            : tr("%1: %2 steps").arg(name).arg(run->run.steps.size());
+  QString text = run->run.steps.size() == 1
+                     ? tr("%1: one step").arg(name)
+                     : tr("%1: %2 steps")
+                           .arg(name, QString::fromStdString(session::withThousands(run->run.steps.size())));
   if (run->run.hits > 1)
     text += tr("; fragment %1 of %2 on the pixel, %3")
                 .arg(run->run.hit)

@@ -22,7 +22,8 @@ StackPanel::StackPanel(Debugger& debugger, QWidget* parent)
   loops_->layout()->setContentsMargins(8, 0, 8, 0);
   connect(calls_, &QListWidget::itemActivated, this,
           [this](QListWidgetItem* item) { Q_EMIT lineChosen(item->data(Qt::UserRole).toInt()); });
-  for (const auto signal : {&Debugger::placeChanged, &Debugger::stopChanged, &Debugger::loopsChanged})
+  for (const auto signal :
+       {&Debugger::placeChanged, &Debugger::stopChanged, &Debugger::loopsChanged, &Debugger::runChanged})
     connect(&debugger_, signal, this, &StackPanel::refresh);
 }
 
@@ -45,11 +46,17 @@ void StackPanel::refresh() {
 }
 
 // As far as it is known: of all threads, of the picked one; else some more than now.
-int StackPanel::mostIterations(const LoopAround& loop) const {
+int StackPanel::mostIterations(const LoopAround& loop, std::size_t depth) const {
   if (debugger_.loops())
     for (const session::LoopReport& report : debugger_.loops()->loops)
       if (report.line == loop.line) return std::max(1, static_cast<int>(report.active.size()));
-  return std::max(64, 2 * loop.iteration);
+  int most = 0;
+  if (const RunPtr& run = debugger_.run())
+    for (const session::Step& step : run->run.steps)
+      if (step.kind == session::Step::Kind::condition && step.line == loop.line &&
+          step.iteration.size() > depth)
+        most = std::max(most, step.iteration[depth]);
+  return most > 0 ? most : std::max(64, 2 * loop.iteration);
 }
 
 void StackPanel::refreshLoops() {
@@ -86,7 +93,7 @@ void StackPanel::refreshLoops() {
     label->setText(tr("Loop %1").arg(loop.line));
     const QSignalBlocker quiet_slider(slider);
     const QSignalBlocker quiet_number(number);
-    slider->setRange(0, std::max(mostIterations(loop), loop.iteration));
+    slider->setRange(0, std::max(mostIterations(loop, i), loop.iteration));
     number->setRange(0, 1'000'000);
     if (!slider->isSliderDown()) slider->setValue(loop.iteration);
     number->setValue(loop.iteration);

@@ -20,7 +20,7 @@ class StackPanel : public QWidget {
  private:
   void refresh();
   void refreshLoops();
-  int mostIterations(const LoopAround&) const;
+  int mostIterations(const LoopAround&, std::size_t depth) const;
 
   Debugger& debugger_;
   QListWidget* calls_;

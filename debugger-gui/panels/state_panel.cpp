@@ -5,12 +5,15 @@
 #include <QLabel>
 #include <QMap>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "debugger-gui/panels/page.h"
 #include "debugger-gui/style/theme.h"
 
 namespace shadestep::gui {
 namespace {
+
+constexpr int kWhyNot = 6;  // a column
 
 QComboBox* switchBox() {
   auto* box = new QComboBox;
@@ -50,36 +53,14 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
   tree_->setColumnWidth(0, 330);
   auto* state = new QWidget;
   layOutPage(*state, {search_}, tree_);
-  auto* tests = new QGridLayout;
-  tests->setVerticalSpacing(5);
-  auto* title = new QLabel(tr("Replays of the debugger"));
-  QFont bold = title->font();
-  bold.setBold(true);
-  title->setFont(bold);
-  tests->addWidget(title, 0, 0, 1, 2);
-  int row = 1;
-  for (const auto& [name, box] : {std::pair<QString, QWidget*>{tr("Alpha test"), alpha_},
-                                  {tr("Depth test"), depth_},
-                                  {tr("Stencil test"), stencil_},
-                                  {tr("Blending"), blend_},
-                                  {tr("Layer"), layer_},
-                                  {tr("Sample"), sample_}}) {
-    auto* label = new QLabel(name);
-    label->setBuddy(box);
-    tests->addWidget(label, row, 0);
-    tests->addWidget(box, row++, 1);
-  }
-  tests->addWidget(clear_, row++, 0, 1, 2);
-  tests->setRowStretch(row, 1);
-  auto* columns = new QHBoxLayout(this);
-  columns->setContentsMargins(6, 4, 8, 4);
-  columns->setSpacing(14);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(6, 0, 6, 4);
   tabs_->setDocumentMode(true);
   tabs_->addTab(state, tr("State"));
   tabs_->addTab(makeTextures(), tr("Textures"));
   tabs_->addTab(buffers_, tr("Buffers"));
-  columns->addWidget(tabs_, 1);
-  columns->addLayout(tests);
+  tabs_->addTab(makeTests(), tr("Fragment tests"));
+  column->addWidget(tabs_);
 
   connect(search_, &QLineEdit::textChanged, this, &StatePanel::filter);
   for (QComboBox* box : {alpha_, depth_, stencil_, blend_})
@@ -91,6 +72,35 @@ StatePanel::StatePanel(Debugger& debugger, QWidget* parent)
   connect(&debugger_, &Debugger::stopChanged, this, &StatePanel::ask);
   connect(&debugger_, &Debugger::texturesChanged, this, &StatePanel::refreshTextures);
   connect(tabs_, &QTabWidget::currentChanged, this, &StatePanel::ask);
+}
+
+QWidget* StatePanel::makeTests() {
+  auto* page = new QWidget;
+  auto* tests = new QGridLayout(page);
+  tests->setVerticalSpacing(5);
+  tests->setHorizontalSpacing(10);
+  auto* title =
+      new QLabel(tr("How the debugger replays the draw. The program's own picture stays what it is."));
+  tests->addWidget(title, 0, 0, 1, 5);
+  int at = 0;
+  for (const auto& [name, box] : {std::pair<QString, QWidget*>{tr("Alpha test"), alpha_},
+                                  {tr("Depth test"), depth_},
+                                  {tr("Stencil test"), stencil_},
+                                  {tr("Blending"), blend_},
+                                  {tr("Layer"), layer_},
+                                  {tr("Sample"), sample_}}) {
+    auto* label = new QLabel(name);
+    label->setBuddy(box);
+    constexpr int kRows = 4;
+    const int side = at / kRows, row = 1 + at++ % kRows;
+    tests->addWidget(label, row, 2 * side);
+    tests->addWidget(box, row, 2 * side + 1);
+  }
+  constexpr int kBelowSample = 3;
+  tests->addWidget(clear_, kBelowSample, 2, 1, 2);
+  tests->setRowStretch(5, 1);
+  tests->setColumnStretch(4, 1);
+  return page;
 }
 
 QWidget* StatePanel::makeTextures() {
@@ -152,6 +162,9 @@ void StatePanel::refreshTextures() {
                              QString::number(facts.unit), QString::number(facts.texture), size,
                              QString::number(facts.levels.size()), QString::fromStdString(facts.reason)}));
   }
+  textures_->setColumnHidden(kWhyNot,
+                             std::none_of(debugger_.textures()->begin(), debugger_.textures()->end(),
+                                          [](const auto& one) { return !one.facts.reason.empty(); }));
 }
 
 // Its base level, and its first slice: of a volume the middle one, where most is to be seen.

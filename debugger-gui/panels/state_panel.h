@@ -18,7 +18,7 @@ class StatePanel : public QWidget {
   Q_OBJECT
  public:
   explicit StatePanel(Debugger&, QWidget* parent = nullptr);
-  enum Tab { kState, kTextures, kBuffers };
+  enum Tab { kState, kTextures, kBuffers, kTests };
   void showTab(Tab tab) { tabs_->setCurrentIndex(tab); }
   QTreeWidget& textures() { return *textures_; }
   BuffersPage& buffers() { return *buffers_; }
@@ -31,6 +31,7 @@ class StatePanel : public QWidget {
   void filter(const QString&);
   void chooseFragments();
   void ask();
+  QWidget* makeTests();
   QWidget* makeTextures();
   void refreshTextures();
   void chooseTexture();

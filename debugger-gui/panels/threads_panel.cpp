@@ -16,6 +16,8 @@
 
 namespace shadestep::gui {
 
+constexpr int kColumn = 104;  // screen pixels: as a number wants it
+
 ThreadsPanel::ThreadsPanel(Debugger& debugger, QWidget* parent)
     : QWidget(parent),
       debugger_(debugger),
@@ -23,6 +25,8 @@ ThreadsPanel::ThreadsPanel(Debugger& debugger, QWidget* parent)
       summary_(new QLabel),
       check_(new CheckBadge),
       tabs_(new QTabWidget),
+      copy_(new QToolButton),
+      save_(new QToolButton),
       table_(new QTableView),
       scatter_(new ScatterView),
       tree_(new QTreeView),
@@ -34,6 +38,10 @@ ThreadsPanel::ThreadsPanel(Debugger& debugger, QWidget* parent)
   auto* row = new QHBoxLayout(corner);
   row->setContentsMargins(0, 0, 4, 0);
   row->addWidget(summary_);
+  for (QToolButton* one : {copy_, save_}) {
+    one->setAutoRaise(true);
+    row->addWidget(one);
+  }
   row->addWidget(check_);
   tabs_->setCornerWidget(corner);
   auto* column = new QVBoxLayout(this);
@@ -60,30 +68,21 @@ QWidget* ThreadsPanel::makeTable() {
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
   table_->horizontalHeader()->setHighlightSections(false);
-  table_->horizontalHeader()->setDefaultSectionSize(104);
+  table_->horizontalHeader()->setDefaultSectionSize(kColumn);
   table_->setAccessibleName(tr("Threads and their values"));
-  auto* copy = new QPushButton(tr("Copy"));
-  copy->setToolTip(tr("The chosen rows, or all of them (Ctrl+C)"));
-  auto* save = new QPushButton(tr("Export..."));
-  save->setToolTip(tr("All threads as a table (CSV)"));
-  auto* side = new QVBoxLayout;
-  side->addWidget(copy);
-  side->addWidget(save);
-  side->addStretch();
-  auto* page = new QWidget;
-  auto* columns = new QHBoxLayout(page);
-  columns->setContentsMargins(0, 0, 6, 4);
-  columns->addWidget(table_, 1);
-  columns->addLayout(side);
+  copy_->setText(tr("Copy"));
+  copy_->setToolTip(tr("The chosen rows, or all of them (Ctrl+C)"));
+  save_->setText(tr("Export..."));
+  save_->setToolTip(tr("All threads as a table (CSV)"));
   auto* key = new QShortcut(QKeySequence::Copy, table_);
   key->setContext(Qt::WidgetShortcut);
   connect(key, &QShortcut::activated, this, &ThreadsPanel::copyRows);
-  connect(copy, &QPushButton::clicked, this, &ThreadsPanel::copyRows);
-  connect(save, &QPushButton::clicked, this, &ThreadsPanel::exportCsv);
+  connect(copy_, &QToolButton::clicked, this, &ThreadsPanel::copyRows);
+  connect(save_, &QToolButton::clicked, this, &ThreadsPanel::exportCsv);
   for (const auto signal : {&QTableView::activated, &QTableView::clicked})
     connect(table_, signal, this,
             [this](const QModelIndex& index) { pickThread(model_.threadAt(index.row())); });
-  return page;
+  return table_;
 }
 
 QWidget* ThreadsPanel::makeScatter() {
@@ -141,8 +140,12 @@ void ThreadsPanel::refresh() {
   tabs_->setTabVisible(kMade, debugger_.source(session::Stage::geometry) != nullptr);
   model_.refresh();
   QStringList names;
-  for (int column = 0; column < model_.columnCount(); ++column)
+  for (int column = 0; column < model_.columnCount(); ++column) {
     names.push_back(model_.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+    constexpr int kAround = 24;
+    const int wide = table_->fontMetrics().horizontalAdvance(names.back()) + kAround;
+    if (table_->columnWidth(column) < wide) table_->setColumnWidth(column, wide);
+  }
   for (int i = 0; i < 4; ++i) {
     const QString before = axes_[i]->currentText();
     const QStringList offered = i < 3 ? names : QStringList{tr("(one)")} + names;
@@ -163,17 +166,21 @@ void ThreadsPanel::refresh() {
 
 void ThreadsPanel::summarize() {
   const bool made = tabs_->currentIndex() == kMade;
+  for (QToolButton* one : {copy_, save_}) one->setVisible(tabs_->currentIndex() == kTable);
   const LookPtr& look = debugger_.values();
   std::optional<session::Check> check = debugger_.check();
   QString text;
   if (made && debugger_.emits()) {
     check = debugger_.emits()->check;
     const auto totals = debugger_.emits()->totals();
+    const auto number = [](auto count) {
+      return QString::fromStdString(session::withThousands(static_cast<std::uint64_t>(count)));
+    };
     text = tr("%1 primitives, %2 runs (%3 silent), %4 vertices")
-               .arg(totals.inputs)
-               .arg(totals.runs)
-               .arg(totals.silent_runs)
-               .arg(totals.vertices);
+               .arg(number(totals.inputs), number(totals.runs), number(totals.silent_runs),
+                    number(totals.vertices));
+  } else if (debugger_.place() && debugger_.place()->ended) {
+    text = tr("The threads have ended");
   } else if (look) {
     text = tr("%1 of %2 threads get here")
                .arg(QString::fromStdString(session::withThousands(look->threads.reached)),

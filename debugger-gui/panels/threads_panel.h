@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QTabWidget>
 #include <QTableView>
+#include <QToolButton>
 #include <QTreeView>
 
 #include "debugger-gui/models/emits_model.h"
@@ -51,6 +52,7 @@ class ThreadsPanel : public QWidget {
   QLabel* summary_;
   CheckBadge* check_;
   QTabWidget* tabs_;
+  QToolButton *copy_, *save_;  // of the table
   QTableView* table_;
   ScatterView* scatter_;
   QComboBox* axes_[4];  // x, y, up, colour

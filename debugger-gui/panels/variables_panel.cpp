@@ -5,31 +5,63 @@
 #include <QFileDialog>
 #include <QHeaderView>
 #include <QMenu>
+#include <QPainter>
 #include <QShortcut>
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 
 #include "debugger-gui/panels/page.h"
+#include "debugger-gui/views/eliding_header.h"
 #include "profiler/pictures/files.h"
 #include "session/text.h"
 
 namespace shadestep::gui {
 namespace {
 
-// A number without its exponent would be another number.
-class ElideDelegate : public QStyledItemDelegate {
+// Of a vector or matrix the parts have a range, the whole has none.
+bool hasRange(const QModelIndex& index) {
+  return !index.siblingAtColumn(VariableModel::kMin).data().toString().isEmpty();
+}
+
+class ValueDelegate : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
 
  protected:
   void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
     QStyledItemDelegate::initStyleOption(option, index);
+    // A number without its exponent would be another number.
     if (index.column() == VariableModel::kMin || index.column() == VariableModel::kMax)
       option->textElideMode = Qt::ElideMiddle;
+    if (index.column() == VariableModel::kValue && !hasRange(index))
+      option->text.clear();  // drawn by the row
   }
 };
 
 }  // namespace
+
+void ValueTree::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
+                        const QModelIndex& index) const {
+  QTreeView::drawRow(painter, option, index);
+  const QModelIndex value = index.siblingAtColumn(VariableModel::kValue);
+  const QString text = value.data().toString();
+  if (text.isEmpty() || hasRange(index)) return;
+  QRect room = visualRect(value);
+  room.setRight(viewport()->width());
+  const int margin = style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, this) + 1;
+  constexpr int kPadding = 4;  // the style sheet's, of an item
+  room.adjust(margin + kPadding, 0, -margin, 0);
+  const QFont font = value.data(Qt::FontRole).value<QFont>();
+  const QVariant color = value.data(Qt::ForegroundRole);
+  painter->save();
+  painter->setFont(font);
+  painter->setPen(selectionModel()->isSelected(index) ? palette().color(QPalette::HighlightedText)
+                  : color.isValid()                   ? color.value<QColor>()
+                                                      : palette().color(QPalette::Text));
+  painter->drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
+                    QFontMetrics(font).elidedText(text, Qt::ElideRight, room.width()));
+  painter->restore();
+}
 
 VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
     : QWidget(parent),
@@ -37,9 +69,10 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
       model_(debugger),
       expression_(new QLineEdit),
       check_(new CheckBadge),
-      tree_(new QTreeView),
+      tree_(new ValueTree),
       histogram_(new Histogram) {
   expression_->setPlaceholderText(tr("Watch an expression: dst.rgb, m[1].z, length(dir) * 2.0"));
+  tree_->setHeader(new ElidingHeader);
   tree_->setModel(&model_);
   tree_->setUniformRowHeights(true);
   tree_->setAlternatingRowColors(true);
@@ -49,12 +82,11 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   // All that is looked at all the time stands in sight; a name's tooltip says its type.
   tree_->hideColumn(VariableModel::kType);
   tree_->header()->setStretchLastSection(false);
-  tree_->header()->setTextElideMode(Qt::ElideRight);
   tree_->header()->setSectionResizeMode(VariableModel::kValue, QHeaderView::Stretch);
   for (const auto& [column, width] :
        {std::pair{VariableModel::kName, 112}, {VariableModel::kMin, 84}, {VariableModel::kMax, 84}})
     tree_->setColumnWidth(column, width);
-  tree_->setItemDelegate(new ElideDelegate(tree_));
+  tree_->setItemDelegate(new ValueDelegate(tree_));
 
   layOutPage(*this, {expression_, check_}, tree_);
   layout()->addWidget(histogram_);
@@ -79,6 +111,19 @@ VariablesPanel::VariablesPanel(Debugger& debugger, QWidget* parent)
   connect(remove, &QShortcut::activated, this, [this] {
     const auto target = model_.targetAt(tree_->currentIndex());
     if (target.is_watch) debugger_.removeWatch(target.variable);
+  });
+  // Long names get some of the values' room.
+  connect(&model_, &QAbstractItemModel::modelReset, this, [this] {
+    constexpr int kMost = 140;
+    int wide = tree_->columnWidth(VariableModel::kName);
+    for (int group = 0; group < model_.rowCount(); ++group) {
+      const QModelIndex above = model_.index(group, 0);
+      for (int row = 0; row < model_.rowCount(above); ++row)
+        wide = std::max(wide, std::min(kMost, 3 * tree_->indentation() +
+                                                  tree_->fontMetrics().horizontalAdvance(
+                                                      model_.index(row, 0, above).data().toString())));
+    }
+    tree_->setColumnWidth(VariableModel::kName, wide);
   });
   for (const auto signal : {&Debugger::valuesChanged, &Debugger::pickedChanged, &Debugger::watchesChanged,
                             &Debugger::placeChanged, &Debugger::stopChanged})

@@ -11,6 +11,15 @@
 
 namespace shadestep::gui {
 
+// A value without a range beside it stands across the range's columns.
+class ValueTree : public QTreeView {
+ public:
+  using QTreeView::QTreeView;
+
+ protected:
+  void drawRow(QPainter*, const QStyleOptionViewItem&, const QModelIndex&) const override;
+};
+
 class VariablesPanel : public QWidget {
   Q_OBJECT
  public:

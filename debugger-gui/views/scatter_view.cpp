@@ -8,6 +8,7 @@
 #include "debugger-gui/style/theme.h"
 #include "profiler/pictures/colors.h"
 #include "profiler/pictures/ticks.h"
+#include "session/text.h"
 
 namespace shadestep::gui {
 namespace {
@@ -95,12 +96,13 @@ std::optional<std::size_t> ScatterView::pointAt(const QPointF& position) const {
 
 void ScatterView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  paintBox(painter);
   if (placed_.empty()) {
+    painter.fillRect(rect(), theme().panel);
     painter.setPen(theme().faint);
     painter.drawText(rect(), Qt::AlignCenter, tr("No thread has these values here"));
     return;
   }
+  paintBox(painter);
   struct Dot {
     QPointF at;
     double depth;
@@ -144,7 +146,8 @@ void ScatterView::paintKey(QPainter& painter) const {
   const QRect inner = rect().adjusted(10, 8, -10, -8);
   if (left_out_ > 0)
     painter.drawText(inner, Qt::AlignLeft | Qt::AlignTop,
-                     tr("%1 left out: not there, NaN or infinite").arg(left_out_));
+                     tr("%1 left out: not there, NaN or infinite")
+                         .arg(QString::fromStdString(session::withThousands(left_out_))));
   if (points_.shade.values.empty()) return;
   constexpr int kWide = 120, kTall = 8;
   const QRect bar(inner.right() - kWide, inner.top() + 18, kWide, kTall);

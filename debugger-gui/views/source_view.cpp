@@ -59,6 +59,8 @@ void SourceView::applyTheme() {
   const Theme& colors = theme();
   lexer_->applyTheme();
   setLexer(lexer_);
+  // It would take GL_ES and the like for undefined, and what stands there for left out.
+  SendScintilla(SCI_SETPROPERTY, "lexer.cpp.track.preprocessor", "0");
   setColor(colors.text);
   setPaper(colors.panel);
   setMarginsBackgroundColor(colors.window);

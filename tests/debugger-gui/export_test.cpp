@@ -64,7 +64,7 @@ TEST_F(Export, AVariableOfAllThreadsIsWhatTheCommandLineWrites) {
 
 TEST_F(Export, TheTableOfThreadsHoldsTheSameValues) {
   const std::string expected = fromCommandLine("dst");
-  for (QPushButton* button : window_->threads().findChildren<QPushButton*>())
+  for (QToolButton* button : window_->threads().findChildren<QToolButton*>())
     if (button->text() == "Export...") button->click();
   const std::string all = written();
   std::ofstream(scratch_.file("all.csv")) << all;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QPushButton>
+#include <QSlider>
 #include <QToolTip>
 #include <fstream>
 
@@ -125,6 +126,16 @@ TEST_F(Source, ABreakpointPassesByTheFirstVisits) {
   EXPECT_EQ(window_.shown("i"), "3") << "counted from the start backwards, too";
   window_.press("run-back");
   EXPECT_EQ(window_.shown("i"), "3");
+}
+
+// Its condition ends it after five iterations.
+TEST_F(Source, TheSliderOfALoopEndsWhereThePickedThreadsWayDoes) {
+  window_.pick(4, 8);
+  window_.debugger().toLine(kInFirstLoop);
+  window_.settle();
+  const auto* slider = window_->dock("stack")->findChild<QSlider*>();
+  ASSERT_NE(slider, nullptr);
+  EXPECT_EQ(slider->maximum(), 5);
 }
 
 TEST_F(Source, TheMarginSaysHowOftenLinesRunAndWhatTheyCost) {

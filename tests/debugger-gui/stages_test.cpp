@@ -122,7 +122,7 @@ TEST(Stages, TheTableIsSortedAndCopied) {
       }
     }
   }
-  for (QPushButton* button : window->threads().findChildren<QPushButton*>())
+  for (QToolButton* button : window->threads().findChildren<QToolButton*>())
     if (button->text() == "Copy") button->click();
   const QStringList lines = QApplication::clipboard()->text().split('\n', Qt::SkipEmptyParts);
   ASSERT_EQ(lines.size(), model.rowCount() + 1);

@@ -92,6 +92,7 @@ TEST_F(Textures, AreListedWithWhatTheyAre) {
   // A click shows it: of a volume the middle slice.
   const QList<QTreeWidgetItem*> found = list.findItems("volume", Qt::MatchExactly);
   ASSERT_EQ(found.size(), 1);
+  list.scrollToItem(found.front());
   QTest::mouseClick(list.viewport(), Qt::LeftButton, {}, list.visualItemRect(found.front()).center());
   window_.settle();
   ASSERT_TRUE(window_.debugger().texture()) << window_.lastMessage().toStdString();
