@@ -229,7 +229,7 @@ void MainWindow::makeDocks() {
   resizeDocks({frames, picture}, {312, 430}, Qt::Horizontal);
   resizeDocks({frames, stack}, {300, 170}, Qt::Vertical);
   resizeDocks({picture, variables}, {370, 370}, Qt::Vertical);
-  resizeDocks({run}, {250}, Qt::Vertical);
+  resizeDocks({run}, {276}, Qt::Vertical);
 }
 
 void MainWindow::makeStatus() {

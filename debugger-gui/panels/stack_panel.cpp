@@ -56,7 +56,7 @@ int StackPanel::mostIterations(const LoopAround& loop, std::size_t depth) const 
       if (step.kind == session::Step::Kind::condition && step.line == loop.line &&
           step.iteration.size() > depth)
         most = std::max(most, step.iteration[depth]);
-  return most > 0 ? most : std::max(64, 2 * loop.iteration);
+  return std::max(most > 0 ? most : 64, 2 * loop.iteration);  // others may go on where the picked one left
 }
 
 void StackPanel::refreshLoops() {

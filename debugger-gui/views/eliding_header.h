@@ -7,7 +7,9 @@ namespace shadestep::gui {
 
 class ElidingHeader : public QHeaderView {
  public:
-  explicit ElidingHeader(QWidget* parent = nullptr) : QHeaderView(Qt::Horizontal, parent) {}
+  explicit ElidingHeader(QWidget* parent = nullptr) : QHeaderView(Qt::Horizontal, parent) {
+    setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  }
 
  protected:
   void initStyleOptionForIndex(QStyleOptionHeader* option, int section) const override {

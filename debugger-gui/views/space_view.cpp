@@ -14,10 +14,10 @@
 namespace shadestep::gui {
 namespace {
 
-constexpr double kPerPixel = 0.4;                  // degrees that a drag turns
-constexpr double kPerKey = 5;                      // degrees
-constexpr int kBeside = 112, kAboveAndBelow = 40;  // screen pixels for the labels
-constexpr double kDistance = 4;                    // of the eye from the middle, in edges of the box
+constexpr double kPerPixel = 0.4;  // degrees that a drag turns
+constexpr double kPerKey = 5;      // degrees
+constexpr int kLabels = 56;        // screen pixels beside the box
+constexpr double kDistance = 4;    // of the eye from the middle, in edges of the box
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -52,8 +52,8 @@ SpaceView::Seen SpaceView::seen(double x, double y, double up) const {
   const double tilt = radians(above_);
   const double high = (up - 0.5) * std::cos(tilt) + away * std::sin(tilt);
   const double near = (up - 0.5) * std::sin(tilt) - away * std::cos(tilt);
-  const double room = std::max(40, std::min(width() - kBeside, height() - kAboveAndBelow));
-  const double scale = zoom_ * 0.57 * room * kDistance / (kDistance - near);
+  const double room = std::max(40, std::min(width() - 2 * kLabels, height() - kLabels));
+  const double scale = zoom_ * 0.54 * room * kDistance / (kDistance - near);
   return {{width() / 2.0 + scale * right, height() / 2.0 - scale * high}, near};
 }
 

@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QStandardPaths>
+#include <QToolButton>
 #include <algorithm>
 
 #include "debugger-gui/panels/state_panel.h"
@@ -20,6 +21,8 @@ constexpr int kInLoop = 53;  // of the ray caster's shader: dst gathers a slab
 
 void save(Window& window, const QString& directory, const QString& name) {
   window.settle();
+  for (auto* button : window->findChildren<QToolButton*>())
+    if (button->accessibleName() == "Close this message") button->click();
   QTest::qWait(50);
   const QString file = directory + "/gui-" + name + ".png";
   // Without the two lowest bits, which nobody sees, the files are half as large.
