@@ -69,6 +69,8 @@ StartDialog::StartDialog(const ProgramSpec& spec, QWidget* parent)
   setWindowTitle(tr("Run a program"));
   command_->setEditable(true);
   command_->setMinimumWidth(460);
+  // However long what was run before.
+  command_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   command_->setInsertPolicy(QComboBox::NoInsert);
   const QList<ProgramSpec> before = recent();
   for (const ProgramSpec& one : before) command_->addItem(commandLine(one.command), stored(one));
@@ -97,6 +99,7 @@ StartDialog::StartDialog(const ProgramSpec& spec, QWidget* parent)
     return row;
   };
   auto* at = new QHBoxLayout;
+  at->setSpacing(6);
   at->addWidget(new QLabel(tr("frame")));
   at->addWidget(frame_);
   at->addSpacing(8);

@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QComboBox>
+#include <QPainter>
+#include <QPlainTextEdit>
 #include <QStandardPaths>
 #include <QToolButton>
 #include <algorithm>
 
 #include "debugger-gui/panels/state_panel.h"
+#include "debugger-gui/start_dialog.h"
 #include "debugger-gui/style/theme.h"
 #include "window.h"
 
@@ -19,20 +23,41 @@ std::vector<std::string> raycaster() {
 
 constexpr int kInLoop = 53;  // of the ray caster's shader: dst gathers a slab
 
-void save(Window& window, const QString& directory, const QString& name) {
+void save(Window& window, const QString& directory, const QString& name, QDialog* above = nullptr) {
   window.settle();
   for (auto* button : window->findChildren<QToolButton*>())
     if (button->accessibleName() == "Close this message") button->click();
   QTest::qWait(50);
   const QString file = directory + "/gui-" + name + ".png";
   // Without the two lowest bits, which nobody sees, the files are half as large.
-  QImage image = window->grab().toImage().convertToFormat(QImage::Format_RGB888);
+  QPixmap seen = window->grab();
+  if (above != nullptr) {
+    const QPixmap dialog = above->grab();
+    const QPoint corner = seen.rect().center() - dialog.rect().center();
+    QPainter painter(&seen);
+    painter.drawPixmap(corner, dialog);
+    painter.setPen(gui::theme().border.darker());
+    painter.drawRect(QRect(corner, dialog.size()));
+  }
+  QImage image = seen.toImage().convertToFormat(QImage::Format_RGB888);
   for (int y = 0; y < image.height(); ++y) {
     uchar* const line = image.scanLine(y);
     for (int i = 0; i < 3 * image.width(); ++i)
       line[i] = static_cast<uchar>((line[i] & 0xfc) | (line[i] >> 6));
   }
   if (!image.save(file, "PNG", 0)) qFatal("cannot write %s", qPrintable(file));
+}
+
+// The program with its arguments, as one types them, not where this machine has it.
+void takeStart(const QString& directory) {
+  Window window;
+  window->resize(1280, 800);
+  window->askForProgram();
+  auto* dialog = window->findChild<gui::StartDialog*>();
+  dialog->findChild<QComboBox*>()->setCurrentText("raycaster --size 256 --frames 3 --turn 5");
+  for (auto* edit : dialog->findChildren<QPlainTextEdit*>()) edit->setPlainText("LP_NUM_THREADS=2");
+  save(window, directory, "start", dialog);
+  dialog->reject();
 }
 
 // From the start to the heat map, on the ray caster.
@@ -158,6 +183,7 @@ void takeBuffers(const QString& directory) {
 }
 
 void takeAll(const QString& directory) {
+  takeStart(directory);
   takeSession(directory);
   takeBuffers(directory);
   takeGeometry(directory);
