@@ -116,14 +116,16 @@ void PictureView::paintEvent(QPaintEvent*) {
 }
 
 // By hand, row by row: most rows are copies of the one above, and a painter hands each line of the grid to
-// its threads.
+// its threads. In strips that stay in the processor's cache until they are painted.
 void PictureView::paintByRows(QPainter& painter, const QRectF& visible) {
   const double ratio = devicePixelRatioF();
   const double scale = scale_ * ratio;
   const QRect area = QRectF(visible.topLeft() * ratio, visible.size() * ratio).toAlignedRect();
   const bool grid = scale_ >= kGridFrom;
-  if (seen_.size() != area.size()) seen_ = QImage(area.size(), QImage::Format_RGB32);
-  seen_.setDevicePixelRatio(ratio);
+  constexpr int kStrip = 48;  // rows
+  const QSize strip(area.width(), std::min(area.height(), kStrip));
+  if (strip_.size() != strip) strip_ = QImage(strip, QImage::Format_RGB32);
+  strip_.setDevicePixelRatio(ratio);
   const QImage hatch = colored_.hatched ? hatchTile() : QImage();
   const auto sourceOf = [scale](double at, double origin, int size) {
     return std::clamp(static_cast<int>(std::floor((at + 0.5 - origin) / scale)), 0, size - 1);
@@ -137,16 +139,21 @@ void PictureView::paintByRows(QPainter& painter, const QRectF& visible) {
     return qRgb(mix(qRed(color)), mix(qGreen(color)), mix(qBlue(color)));
   };
   int above = sourceOf(area.top(), origin_.y() * ratio, colored_.image.height());
+  const bool plain = !colored_.hatched && !colored_.striped && !grid;
   bool same = false;  // is this row the one above once more?
   for (int y = 0; y < area.height(); ++y) {
     const int row = sourceOf(area.top() + y, origin_.y() * ratio, colored_.image.height());
     const bool line = grid && row != above;
-    auto* const to = reinterpret_cast<QRgb*>(seen_.scanLine(y));
-    same = !colored_.hatched && !colored_.striped && !line && row == above && same;
+    const int in_strip = y % kStrip;
+    auto* const to = reinterpret_cast<QRgb*>(strip_.scanLine(in_strip));
+    same = in_strip > 0 && !colored_.hatched && !colored_.striped && !line && row == above && same;
     if (same) {
-      std::copy_n(reinterpret_cast<const QRgb*>(seen_.constScanLine(y - 1)), columns.size(), to);
+      std::copy_n(reinterpret_cast<const QRgb*>(strip_.constScanLine(in_strip - 1)), columns.size(), to);
+    } else if (const auto* const from = reinterpret_cast<const QRgb*>(colored_.image.constScanLine(row));
+               plain) {
+      std::transform(columns.begin(), columns.end(), to, [from](int column) { return from[column]; });
+      same = true;
     } else {
-      const auto* const from = reinterpret_cast<const QRgb*>(colored_.image.constScanLine(row));
       const auto* const behind =
           colored_.hatched ? reinterpret_cast<const QRgb*>(hatch.constScanLine(y % hatch.height())) : nullptr;
       for (std::size_t x = 0; x < columns.size(); ++x) {
@@ -160,8 +167,10 @@ void PictureView::paintByRows(QPainter& painter, const QRectF& visible) {
       same = !line;
     }
     above = row;
+    if (in_strip < strip.height() - 1 && y < area.height() - 1) continue;
+    painter.drawImage(QPointF(area.left(), area.top() + y - in_strip) / ratio, strip_,
+                      QRect(0, 0, strip.width(), in_strip + 1));
   }
-  painter.drawImage(QPointF(area.topLeft()) / ratio, seen_);
 }
 
 QImage PictureView::hatchTile() {

@@ -61,7 +61,7 @@ class PictureView : public QWidget {
   PicturePtr picture_;
   Mapping mapping_;
   Colored colored_;
-  QImage seen_;  // the part of it that is seen, as large as that
+  QImage strip_;  // of what is seen; kept, for all are as large
   double scale_ = 1;
   QString nothing_;
   QPointF origin_;  // of the picture's upper left corner on the widget

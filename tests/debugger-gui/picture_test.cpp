@@ -94,6 +94,32 @@ TEST_F(Marks, SinglePixelsSayTheirValues) {
   EXPECT_GT(colorsOf(6, 2).size(), 5U);
 }
 
+// It is painted in strips: each pixel of the screen is that of the picture which lies there.
+TEST(Enlarged, EveryPixelStandsWhereItLies) {
+  auto picture = std::make_shared<gui::Picture>();
+  picture->width = 61;
+  picture->height = 47;
+  picture->cells.assign(61 * 47, gui::Picture::Cell::reached);
+  for (std::size_t i = 0; i < picture->cells.size(); ++i)
+    picture->colors.push_back(qRgb(static_cast<int>(i % 251), static_cast<int>(i / 251), 77));
+  gui::PictureView view;
+  view.resize(300, 260);
+  view.setPicture(picture);
+  for (const double scale : {1.0, 2.3, 3.7, 6.5}) {
+    view.setScale(scale);
+    const QImage seen = view.grab().toImage();
+    const double ratio = seen.devicePixelRatio();
+    for (int y = 0; y < seen.height(); ++y)
+      for (int x = 0; x < seen.width(); ++x) {
+        const QPoint at = view.pixelAt(QPointF(x + 0.5, y + 0.5) / ratio);
+        constexpr int kFrame = 1;  // around the picture
+        if (at.x() < kFrame || at.y() < kFrame || at.x() >= 61 - kFrame || at.y() >= 47 - kFrame) continue;
+        ASSERT_EQ(seen.pixel(x, y), picture->colors[picture->index(at.x(), at.y())])
+            << scale << ": " << x << ", " << y;
+      }
+  }
+}
+
 TEST(Narrow, NumbersKeepTheirExponent) {
   using gui::ValueGlyphs;
   EXPECT_EQ(ValueGlyphs::shortened("1.25", 4), "1.25");
