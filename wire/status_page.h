@@ -7,12 +7,13 @@
 
 namespace shadestep::wire {
 
-// A memory page of the largest size that there is, so that one address of the agent's can be mapped anew.
+// A memory page of the largest size that there is, so that one address of the agent's can be mapped anew: the
+// agent's own page lies at such an address, what the other side maps at any.
 inline constexpr std::size_t kPageBytes = 65536;
 
 // The first page of the memfd that the agent sends with Hello, mapped by both sides, without locks. Written
 // by the agent, but for `pause` and `watching`.
-struct alignas(kPageBytes) StatusPage {
+struct StatusPage {
   std::atomic<std::uint64_t> frame;  // frames ended so far (0-based number of the current frame)
   // Draws begun: those of the thread that drew first, which alone writes their number and so needs no locked
   // instruction, and those of all others; and how many of both belong to frames that have ended.
@@ -27,6 +28,7 @@ struct alignas(kPageBytes) StatusPage {
   // Where each thread keeps its last call: bytes from its thread pointer to a pointer to something that
   // begins with a pointer to the call's name. 0 = nowhere.
   std::atomic<std::int64_t> last_call;
+  std::byte rest[kPageBytes - 48];
 
   // Draws begun in total, and in the current frame.
   std::uint64_t draws() const {

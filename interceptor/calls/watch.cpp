@@ -2,7 +2,7 @@
 
 namespace shadestep::calls {
 
-constinit wire::StatusPage status{};
+alignas(wire::kPageBytes) constinit wire::StatusPage status{};
 constinit thread_local bool insideWatched = false;
 constinit thread_local const CallDescription* lastCall = nullptr;
 

@@ -18,7 +18,7 @@ namespace shadestep::calls {
 
 // Where the program is. The agent lays the memory that it shares with the session over this page, so that the
 // session can switch watching on.
-extern constinit wire::StatusPage status;
+alignas(wire::kPageBytes) extern constinit wire::StatusPage status;
 // This thread is in a watched call: what is called from there (by the call's own wrapper, by a callback) is
 // part of it.
 extern constinit thread_local bool insideWatched;
