@@ -67,7 +67,7 @@ QString wholeText(const session::LoggedCall& call) {
 DrawModel::DrawModel(const Debugger& debugger, QObject* parent)
     : QAbstractItemModel(parent), debugger_(debugger) {}
 
-bool DrawModel::refresh() {
+bool DrawModel::refresh(bool anew) {
   std::vector<Frame> frames;
   for (const DrawEntry& draw : debugger_.draws()) {
     const std::uint64_t number = draw.stop.frame;
@@ -81,7 +81,7 @@ bool DrawModel::refresh() {
       frame.draws.push_back(endOf(frame.number, behind));
   const bool grown = std::equal(frames_.begin(), frames_.end(), frames.begin(), frames.end(),
                                 [](const Frame& a, const Frame& b) { return a.grows(b).has_value(); });
-  if (!grown) {
+  if (anew || !grown) {
     beginResetModel();
     frames_ = std::move(frames);
     endResetModel();

@@ -15,7 +15,8 @@ class DrawModel : public QAbstractItemModel {
   static constexpr int kSearched = Qt::UserRole;  // the text, where it is of the program
 
   explicit DrawModel(const Debugger&, QObject* parent = nullptr);
-  bool refresh();  // true: anew; false: rows were added to the frames at most
+  // True: anew, as it can be asked for; false: rows were added to the frames at most.
+  bool refresh(bool anew);
 
   const DrawEntry* drawAt(const QModelIndex&) const;
   // The draw that it leads to; null for what is no call, or behind the last draw. Row 0 of a draw whose calls

@@ -121,7 +121,10 @@ void FramePanel::askPictures() {
 }
 
 void FramePanel::refresh() {
-  const bool rebuilt = model_.refresh();
+  // A recursive filter may miss what is added to a frame while it leaves the frame out, and later takes the
+  // frame for as long as it was (Qt 6.4).
+  const bool searched = !search_->text().isEmpty();
+  const bool rebuilt = model_.refresh(searched);
   const QList<DrawEntry>& draws = debugger_.draws();
   const bool pictures =
       std::any_of(draws.begin(), draws.end(), [](const auto& one) { return !one.thumbnail.isNull(); });
@@ -131,6 +134,7 @@ void FramePanel::refresh() {
     if (rebuilt) tree_->setExpanded(filter_.index(frame, 0), true);
     tree_->setFirstColumnSpanned(frame, {}, true);
   }
+  if (searched) showFound();
 }
 
 void FramePanel::showHere() {

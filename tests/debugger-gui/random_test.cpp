@@ -5,6 +5,7 @@
 #include <iostream>
 #include <random>
 
+#include "debugger-gui/panels/frame_panel.h"
 #include "debugger-gui/panels/state_panel.h"
 #include "window.h"
 
@@ -72,7 +73,7 @@ class RandomUser {
 
   void lookSomewhere() {
     auto* state = window_->dock("state")->findChild<gui::StatePanel*>();
-    switch (below(6)) {
+    switch (below(7)) {
       case 0:
         return debugger().addWatch(
             QStringList({"dst", "dst.rgb", "i", "no such", "pos.x", "gl_FragCoord", "FragColor"})[below(7)]);
@@ -80,18 +81,34 @@ class RandomUser {
         if (!debugger().watches().isEmpty()) debugger().removeWatch(debugger().watches().front());
         return;
       case 2:
-        return debugger().toggleBreakpoint(1 + below(60));
+        if (below(2) == 0) return debugger().toggleBreakpoint(1 + below(60));
+        return debugger().setBreakpoint(
+            1 + below(60),
+            gui::Breakpoint{true, QStringList({"", "i > 2", "dst.a < 0.5", "dst", "no such"})[below(5)],
+                            below(4)});
       case 3:
-        return state->showTab(static_cast<gui::StatePanel::Tab>(below(3)));
+        return state->showTab(static_cast<gui::StatePanel::Tab>(below(4)));
       case 4:
         if (QTreeWidget& list = state->buffers().list(); list.topLevelItemCount() > 0)
           list.setCurrentItem(list.topLevelItem(below(list.topLevelItemCount())));
         return;
+      case 5:
+        return lookAtFrames();
       default:
         window_
             ->dock(QStringList({"run", "threads", "loops", "cost", "calls", "state", "variables"})[below(7)])
             ->raise();
     }
+  }
+
+  void lookAtFrames() {
+    auto* frames = window_->dock("frames")->findChild<gui::FramePanel*>();
+    frames->search().setText(QStringList({"", "uniform", "draw", "no such"})[below(4)]);
+    QTreeView& tree = frames->tree();
+    const QModelIndex frame = tree.model()->index(0, 0);
+    if (const int rows = tree.model()->rowCount(frame); rows > 0)
+      tree.expand(tree.model()->index(below(2) == 0 ? rows - 1 : below(rows), 0, frame));
+    window_->grab();
   }
 
   void changeWhatIsShown() {
