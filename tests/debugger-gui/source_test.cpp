@@ -4,6 +4,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QToolTip>
+#include <cmath>
 #include <fstream>
 
 #include "debugger-gui/panels/breakpoint_dialog.h"
@@ -72,6 +73,22 @@ TEST_F(Source, TheMouseOverANameShowsItsValue) {
   EXPECT_TRUE(text.contains("vec2(0.28125, 0.53125)")) << text.toStdString();
   EXPECT_TRUE(text.contains("identical")) << text.toStdString();
   EXPECT_EQ(tooltip("=", kPosition), "");
+}
+
+TEST_F(Source, RangesAreRoundedToTheirColumnsAndExactInTheirTooltips) {
+  window_.pick(4, 8);
+  window_.press("over");
+  window_.debugger().addWatch("length(p) * 0.01");
+  window_.settle();
+  for (const int column : {gui::VariableModel::kMin, gui::VariableModel::kMax}) {
+    const QString exact =
+        window_.row("length(p) * 0.01").siblingAtColumn(column).data(Qt::ToolTipRole).toString();
+    const double corner = column == gui::VariableModel::kMin ? 0.5 / 16 : 15.5 / 16;
+    EXPECT_NEAR(exact.toDouble(), corner * std::sqrt(2.0) * 0.01, 1e-8);
+    EXPECT_GT(exact.size(), 9);
+    EXPECT_EQ(window_.shown("length(p) * 0.01", column), QString::number(exact.toDouble(), 'g', 5));
+  }
+  EXPECT_EQ(window_.shown("p", gui::VariableModel::kMin), "") << "its parts have ranges";
 }
 
 TEST_F(Source, TheMouseOverAMacroShowsWhatItStandsFor) {
