@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint32_t kFirstRoomPerThread = 1 << 16;  // words a recorded thread may write at the first try
 constexpr std::uint32_t kLeastRoomPerThread = 1 << 10;
+constexpr std::uint64_t kMostWordsAtFirst = 1 << 22;  // every driver has as much (OpenGL 4.3, table 23.64)
 constexpr std::uint32_t kThreadsPerPixel = 16;    // fragments expected at most on one pixel, first try
 constexpr std::uint32_t kThreadsPerIdentity = 4;  // a vertex may be shaded several times
 
@@ -52,11 +53,13 @@ Session::Recorded Session::record(const PreparedRecording& prepared,
   return recordWith(prepared, thread, kThreadsPerIdentity, kFirstRoomPerThread);
 }
 
-// With as much room as is needed: `threads` and `room` (words each) are the first try.
+// With as much room as is needed: `threads` and `room` (words each) are the first try, which tells how many
+// threads there are and what they write, however little of that had room.
 Session::Recorded Session::recordWith(const PreparedRecording& prepared,
                                       const std::vector<std::uint32_t>& which, std::uint64_t threads,
                                       std::uint64_t room) {
   const instrumenter::RecordingLayout& layout = prepared.shader.layout;
+  threads = std::min(threads, kMostWordsAtFirst / room);
   while (true) {
     const std::uint64_t words = instrumenter::kRecordingHeader + threads * room;
     if (words > kMostWords) {
@@ -83,10 +86,12 @@ Session::Recorded Session::recordWith(const PreparedRecording& prepared,
     }
     if (complete) return recorded;
     // As many as there are may be too many for as much room each as was tried first.
-    const std::uint64_t least = recorded.recording.started > threads ? kLeastRoomPerThread : room;
+    const std::uint64_t all = std::max<std::uint64_t>(recorded.recording.started, threads);
+    const std::uint64_t least =
+        all > threads ? std::min<std::uint64_t>(kLeastRoomPerThread, kMostWordsAtFirst / all) : room;
     const std::uint64_t wanted = std::max<std::uint64_t>(least, longest + instrumenter::kThreadHeader);
     if (recorded.recording.started <= threads && wanted == room) return recorded;  // some have no end
-    threads = std::max<std::uint64_t>(recorded.recording.started, threads);
+    threads = all;
     room = wanted;
   }
 }

@@ -67,6 +67,27 @@ TEST_F(Plans, ARecordingKnowsInputsToo) {
   }
 }
 
+// Of a large image it is not known before how many threads there are and what they write.
+TEST_F(Plans, ARecordingTakesRoomForTheThreadsThatThereAre) {
+  std::ofstream(scratch_.file("shader.frag")) << R"glsl(#version 430
+out vec4 color;
+void main() {
+  float sum = gl_FragCoord.x;
+  sum += 1024.0 * gl_FragCoord.y;
+  color = vec4(sum);
+}
+)glsl";
+  const Finished done = scratch_.shadestep(
+      {"debug", "--at", "6", "--print", "sum", "--plan", "recording", "--csv", "large.csv", "--json"},
+      {binary("programs/shader-file"), scratch_.file("shader.frag"), "600"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_EQ(done.json()["check"]["outputs"], "identical");
+  const auto rows = readCsv(scratch_.file("large.csv"));
+  ASSERT_EQ(rows.size(), 600U * 600U);
+  for (const auto& row : rows)
+    ASSERT_EQ(std::stod(row[2]), std::stod(row[0]) + 0.5 + 1024 * (std::stod(row[1]) + 0.5));
+}
+
 TEST_F(Plans, SayWhatARecordingDoesNotHold) {
   const Finished done = debug({"--at", "5", "--call", "11", "--print", "b", "--plan", "recording"});
   EXPECT_EQ(done.status, 4);
