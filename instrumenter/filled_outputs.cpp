@@ -17,7 +17,9 @@ Result<std::string> instrumentFilledOutputs(const frontend::Shader& shader, cons
                                             int quarters) {
   Draft draft(shader);
   const std::string value = std::to_string(static_cast<float>(quarters) / 4);
-  std::string assignments = assignOutputs(shader, value, std::to_string(quarters));
+  const bool fragments = shader.stage == frontend::Stage::fragment;
+  std::string assignments = assignOutputs(shader, fragments ? shader.outputs : stageOutputs(shader), value,
+                                          std::to_string(quarters));
   if (mentions(shader, "gl_FragColor")) assignments += "  gl_FragColor = vec4(" + value + ");\n";
   if (mentions(shader, "gl_FragData")) {
     for (int i = 0; i < target.used_draw_buffers; ++i)

@@ -41,7 +41,7 @@ std::string onlyOutputs(const Shader& shader, const Target& target, const std::s
                         const std::string& start, const std::string& value) {
   const bool es = isEs(shader);
   std::string declarations;
-  std::string assignments = assignOutputs(shader, value, value);
+  std::string assignments = assignOutputs(shader, shader.outputs, value, value);
   for (std::size_t i = 0; i < shader.outputs.size(); ++i) {
     const Variable& output = shader.variables[static_cast<std::size_t>(shader.outputs[i])];
     if (es) declarations += "layout(location = " + std::to_string(i) + ") ";

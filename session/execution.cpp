@@ -198,12 +198,8 @@ Execution Session::execute(const Prepared& prepared, const ExecuteOptions& optio
     result.check.reason = prepared.uncompared;
   else if (options.compare)
     result.check.left_out = prepared.uncompared;
-  // What is looked at there is one plane of the target.
-  const bool one_plane = facts().layers <= 1 && facts().samples <= 1;
-  if (stage() == Stage::fragment && reply.differing + reply.unstable > 0 && reply.outside_colors == 0 &&
-      one_plane) {
+  if (reply.differing + reply.unstable > 0 && reply.outside_outputs == 0 && tellsUndefinedOutputs(*this))
     leaveOutUndefined(prepared, options, reply.unstable, result.check);
-  }
   return result;
 }
 
@@ -218,7 +214,7 @@ void Session::leaveOutUndefined(const Prepared& prepared, const ExecuteOptions& 
   again.read_captures = false;
   again.read_outputs = true;
   again.repeats = 1;
-  const std::uint64_t differing = differingDefined(undefined, execute(prepared, again).outputs);
+  const std::uint64_t differing = differingDefined(undefined, execute(prepared, again));
   if (unstable > 0 && differing > 0) return;  // the draw is unstable beyond that, as the agent says
   check.compared_at_all = true;
   check.reason.clear();

@@ -349,6 +349,7 @@ std::vector<std::byte> Session::readBuffer(std::uint32_t buffer, std::uint64_t o
 }
 
 void Session::select(Stage stage) {
+  if (state_->stage != stage) state_->undefined.reset();
   state_->stage = stage;
 }
 

@@ -26,16 +26,18 @@ bool writesFragData(const frontend::Shader& shader) {
   return mentions(shader, kFragColor) || mentions(shader, "gl_FragData");
 }
 
-std::string assignOutputs(const frontend::Shader& shader, std::string_view value, std::string_view integer) {
+std::string assignOutputs(const frontend::Shader& shader, const std::vector<frontend::VariableId>& outputs,
+                          std::string_view value, std::string_view integer) {
   std::string text;
-  for (const frontend::VariableId id : shader.outputs) {
+  for (const frontend::VariableId id : outputs) {
     const frontend::Variable& output = shader.variables[static_cast<std::size_t>(id)];
     for (const frontend::Component& component : frontend::components(output.type)) {
-      const char* type = component.basic == frontend::Basic::int_    ? "int"
-                         : component.basic == frontend::Basic::uint_ ? "uint"
-                                                                     : "float";
-      const std::string_view given = component.basic == frontend::Basic::float_ ? value : integer;
-      text += "  " + output.name + component.access + " = " + type + "(" + std::string(given) + ");\n";
+      frontend::Type type;
+      type.basic = component.basic;
+      const bool real =
+          component.basic == frontend::Basic::float_ || component.basic == frontend::Basic::double_;
+      text += "  " + output.name + component.access + " = " + frontend::glslName(type) + "(" +
+              std::string(real ? value : integer) + ");\n";
     }
   }
   return text;

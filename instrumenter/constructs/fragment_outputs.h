@@ -10,6 +10,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "instrumenter/draft.h"
 
@@ -18,8 +19,9 @@ namespace shadestep::instrumenter {
 // Does the shader mention gl_FragColor or gl_FragData? (A mention is a static use, written or not.)
 bool writesFragData(const frontend::Shader&);
 
-// GLSL statements that give every component of every declared output a value ("0", "0.25"), integers theirs.
-std::string assignOutputs(const frontend::Shader&, std::string_view value, std::string_view integer);
+// GLSL statements that give every component of these outputs a value ("0", "0.25"), integers theirs.
+std::string assignOutputs(const frontend::Shader&, const std::vector<frontend::VariableId>& outputs,
+                          std::string_view value, std::string_view integer);
 
 // Replaces gl_FragColor everywhere. Assumes that captures go to gl_FragData.
 void replaceFragColor(Draft&);

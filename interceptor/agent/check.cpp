@@ -59,7 +59,7 @@ Refusal DrawTraces::differences(const std::byte* before, ScratchMemory& scratch,
 std::vector<Section> StageTraces::sections() const {
   std::vector<Section> sections;
   const std::uint64_t words = feedback_.outputWords();
-  if (words > 0) sections.push_back({"the outputs of the " + stage_ + " stage", words * 4, 4, words});
+  if (words > 0) sections.push_back({"the outputs of the " + stage_ + " stage", words * 4, 4, words, true});
   append(sections, memory_.sections());
   return sections;
 }
@@ -119,12 +119,12 @@ Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& exec
     if (unstable[i].components != 0) {
       names += (names.empty() ? "" : ", ") + sections[i].name;
       executed.unstable += sections[i].components;
-      if (!sections[i].color) executed.outside_colors += sections[i].components;
+      if (!sections[i].output) executed.outside_outputs += sections[i].components;
       continue;
     }
     executed.compared += sections[i].components;
     executed.differing += differing[i].components;
-    if (!sections[i].color) executed.outside_colors += differing[i].components;
+    if (!sections[i].output) executed.outside_outputs += differing[i].components;
     told = told && differing[i].told;
     if (differing[i].by > (executed.largest ? executed.largest->by : -1.0)) {
       executed.largest = std::make_unique<wire::LargestDifferenceT>();

@@ -9,7 +9,6 @@
 
 namespace shadestep::guard {
 
-// One buffer of what a draw leaves behind, as it lies in memory after it was read.
 // What a component is: then it can be said how far two of them are apart.
 enum class Number : unsigned char {
   unknown,
@@ -21,12 +20,13 @@ enum class Number : unsigned char {
   second_word,
 };
 
+// One buffer of what a draw leaves behind, as it lies in memory after it was read.
 struct Section {
   std::string name;  // "draw buffer 0", "image unit 2"
   std::size_t bytes = 0;
   std::size_t word = 4;              // bytes that make one component
   std::uint64_t components = 0;      // that count: what a format lacks is read as constants
-  bool color = false;                // a colour buffer of the draw
+  bool output = false;               // of the shader's outputs, which it may leave undefined
   std::vector<Number> numbers = {};  // what the words are, over and over from the first on; none: unknown
 };
 

@@ -131,7 +131,7 @@ class Agent {
     if (random_() % 2 == 0) executed.storage = range(odd(std::uint64_t{4096}));
     executed.compared = odd(std::uint64_t{64});
     executed.unstable = odd(std::uint64_t{0});
-    executed.outside_colors = odd(std::uint64_t{0});
+    executed.outside_outputs = odd(std::uint64_t{0});
     if (random_() % 2 == 0) executed.times_ns.push_back(random_());
     if (random_() % 2 == 0) executed.cpu_ns.push_back(random_());
     return executed;

@@ -93,5 +93,50 @@ TEST(UndefinedOutputs, DoNotHideADifferenceInWhatIsWritten) {
   EXPECT_TRUE(session.execute(session.prepareText(text)).check.identical());
 }
 
+// Of the vertices left of the middle the tint is undefined; of all of them the weight is not.
+constexpr const char* kVertex = R"glsl(#version 330
+in vec2 corner;
+out vec4 tint;
+out float weight;
+void main() {
+  gl_Position = vec4(corner, 0.0, 1.0);
+  weight = 2.0;
+  if (corner.x > 0.0) tint = vec4(corner, 3.0, 4.0);
+}
+)glsl";
+
+TEST(UndefinedOutputs, OfVerticesThatDoNotWriteThem) {
+  const Scratch scratch;
+  const auto write = [&](const char* name, const char* text) {
+    std::ofstream(scratch.file(name)) << text;
+    return scratch.file(name);
+  };
+  session::LaunchOptions launch;
+  launch.command = {binary("programs/generator-draw"),
+                    write("scene.txt", "context core\nsize 6 5\ntarget float\nout color 0\n"),
+                    write("shader.vert", kVertex),
+                    write("shader.frag",
+                          "#version 330\nin vec4 tint;\nin float weight;\nout vec4 color;\nvoid main() {\n"
+                          "  color = tint * weight;\n}\n"),
+                    scratch.file("result.txt")};
+  session::Session session(launch);
+  session.runTo(0, 0);
+  session.select(session::Stage::vertex);
+  const auto checkOf = [&](const char* replaced, const char* by) {
+    std::string text = kVertex;
+    text.replace(text.find(replaced), std::string(replaced).size(), by);
+    return session.execute(session.prepareText(text)).check;
+  };
+  const session::Check undefined = checkOf("4.0);", "4.0); else tint = vec4(7.0);");
+  EXPECT_TRUE(undefined.identical()) << undefined.reason << undefined.differing;
+  ASSERT_GT(undefined.undefined, 0U);
+  const std::uint64_t vertices = (undefined.compared + undefined.undefined) / (4 + 4 + 1);
+  EXPECT_EQ(undefined.undefined % 4, 0U);
+  EXPECT_LT(undefined.undefined, vertices * 4);
+
+  EXPECT_EQ(checkOf("2.0", "5.0").differing, vertices);
+  EXPECT_EQ(checkOf("3.0, 4.0", "3.0, 5.0").differing, vertices - undefined.undefined / 4);
+}
+
 }  // namespace
 }  // namespace shadestep::test
