@@ -120,7 +120,8 @@ void Attachments::declare() {
   layout_.words = std::max(layout_.words, widest_);
   const std::string type = draft_.highp() + (floats() ? "vec4 " : "uvec4 ");
   if (!floats()) prepareWords(draft_);
-  if (hides_constants_) draft_.declare("uniform " + draft_.highp() + "uint " + draft_.name("zero") + ";");
+  if (namesZero())
+    draft_.declare("uniform " + draft_.highp() + (floats() ? "float " : "uint ") + draft_.name("zero") + ";");
   if (floats() && draft_.shader().version < 130) draft_.declare(draft_.adapt(helpers::k_attachment_halves));
 
   for (int i = 0; i < layout_.attachments(); ++i) {
@@ -170,15 +171,26 @@ std::vector<std::string> Attachments::markAndIdentity(std::uint32_t mark) const 
 }
 
 std::vector<std::string> Attachments::valueWords(const std::string& value, const Type& type) const {
-  if (floats()) return floatChannels(draft_, value, type);
-  std::vector<std::string> words = uintWords(draft_, value, type);
-  if (!hides_constants_) return words;
+  std::vector<std::string> words =
+      floats() ? floatChannels(draft_, value, type) : uintWords(draft_, value, type);
+  if (!namesZero()) return words;
   std::size_t word = 0;
   for (const frontend::Component& component : frontend::components(type)) {
-    if (component.basic == frontend::Basic::float_) words[word] += " ^ " + draft_.name("zero");
-    word += static_cast<std::size_t>(frontend::wordCount(typeOf(component.basic)));
+    const Type scalar = typeOf(component.basic);
+    words[word] = mixed(words[word], component.basic);
+    word += static_cast<std::size_t>(floats() ? channelCount(scalar) : frontend::wordCount(scalar));
   }
   return words;
+}
+
+// Only words that are the value's own: others are new ones as they are.
+std::string Attachments::mixed(const std::string& word, frontend::Basic basic) const {
+  const bool real = basic == frontend::Basic::float_;
+  if (!real && (floats() || (basic != frontend::Basic::int_ && basic != frontend::Basic::uint_))) return word;
+  const std::string zero = draft_.name("zero");
+  const bool takes_derivatives = draft_.shader().traits.uses_derivatives;
+  if (hides_constants_) return real || takes_derivatives ? word + " ^ " + zero : word;
+  return "(" + zero + (floats() ? " == 0.0 ? " : " == 0u ? ") + word + (floats() ? " : 0.0)" : " : 0u)");
 }
 
 // A geometry shader that hands its words to transform feedback emits one point, and none of its own vertices.

@@ -8,6 +8,12 @@
 //   ... sd_words0 = uvec4(3u, floatBitsToUint(a.x), floatBitsToUint(a.y), 0u) ...
 //   sd_capture0 = sd_words0;
 //
+// In shaders that take derivatives, as a texture's level of detail, words of numbers are made of more than these:
+// (sd_zero == 0u ? floatBitsToUint(a.x) : 0u), a uniform that is never set, hence 0, which no compiler knows.
+// llvmpipe keeps what is made and captured on one side of a branch in the register of the captured word itself,
+// which threads of the other side do not write: a derivative of it there would be made of what lay in theirs
+// before.
+//
 // Fragments that end in a discard leave nothing there: they append their words to a list in a storage block,
 // where the driver has those (AttachmentLayout::discarded_block).
 #pragma once
@@ -28,11 +34,10 @@ class Attachments {
 
   // Makes room for a value; false if `place` does not hold it.
   bool add(const std::string& name, const frontend::Type& type);
-  // Has the words of floats made of more than constants: floatBitsToUint(a.x) ^ sd_zero, a uniform that is
-  // never set, hence 0, which no compiler knows. Mesa takes a choice between the words of the constants -1.0
-  // and 0.0, as the probes of a window make, for one between these floats, and makes 0.0 of it by negating
-  // 0.0: -0.0. To be called before `declare`. (Single probes do without: at a loop's head Mesa would then
-  // lose the values of threads that have left the loop.)
+  // Has the words of floats made of more than constants: floatBitsToUint(a.x) ^ sd_zero. Mesa takes a choice
+  // between the words of the constants -1.0 and 0.0, as the probes of a window make, for one between these
+  // floats, and makes 0.0 of it by negating 0.0: -0.0. To be called before `declare`. (Single probes do
+  // without: nothing would be left of what a shader leaves undefined, which is 0 elsewhere.)
   void hideConstants() { hides_constants_ = !floats(); }
   // What values have to fit into, for the user: "the draw buffers that the program leaves free".
   std::string place() const;
@@ -79,6 +84,8 @@ class Attachments {
   std::vector<std::string> valueWords(const std::string& value, const frontend::Type&) const;
   std::string assignWords(const std::vector<std::string>& words, int attachments,
                           const std::string& nothing = "") const;
+  bool namesZero() const { return hides_constants_ || draft_.shader().traits.uses_derivatives; }
+  std::string mixed(const std::string& word, frontend::Basic) const;
   std::string unrounded(const std::string& words) const;
   std::string markWord(std::uint32_t mark) const;
   std::string outputQualifiers(int index) const;

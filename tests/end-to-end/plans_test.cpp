@@ -1,6 +1,7 @@
 // The three capture plans show the same. Truth: each other, for a loop's variable also its closed form.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "launch.h"
@@ -86,6 +87,44 @@ void main() {
   ASSERT_EQ(rows.size(), 600U * 600U);
   for (const auto& row : rows)
     ASSERT_EQ(std::stod(row[2]), std::stod(row[0]) + 0.5 + 1024 * (std::stod(row[1]) + 0.5));
+}
+
+// The branch parts neighbours, the coordinate is made on one side of it. Level l of the texture reads as l / 8.
+constexpr const char* kLevelInABranch = R"glsl(#version 330
+uniform sampler2D map;
+out vec4 color;
+void main() {
+  vec2 p = gl_FragCoord.xy;
+  color = vec4(p, 0.0, 1.0);
+  if (p.x + p.y > 15.5) {
+    vec2 t = p * 0.05;
+    color.z = texture(map, t).x;
+  }
+}
+)glsl";
+
+TEST_F(Plans, LeaveALevelOfDetailAsItIs) {
+  const double level = std::log2(0.05 * 64);
+  std::string old = kLevelInABranch;
+  old.replace(old.find("330\n"), 4, "120\n");
+  old.erase(old.find("out vec4 color;\n"), 16);
+  for (std::size_t at; (at = old.find("texture(")) != std::string::npos;) old.replace(at, 8, "texture2D(");
+  for (std::size_t at; (at = old.find("color")) != std::string::npos;) old.replace(at, 5, "gl_FragColor");
+  for (const std::string& text : {std::string(kLevelInABranch), old}) {
+    const bool is_old = text == old;
+    std::ofstream(scratch_.file("shader.frag")) << text;
+    for (const char* plan : {"single", "window", "recording"}) {
+      const Finished there = debug({"--at", is_old ? "8" : "9", "--print", "t", "--plan", plan, "--json"});
+      EXPECT_EQ(there.json()["check"]["outputs"], "identical") << plan << there.err << text;
+      const std::string color = is_old ? "gl_FragColor.z" : "color.z";
+      const Finished done = debug({"--at", is_old ? "8" : "9", "--after", "--print", color + ",t", "--csv",
+                                   "level.csv", "--plan", plan});
+      ASSERT_EQ(done.status, 0) << done.err;
+      const auto rows = readCsv(scratch_.file("level.csv"));
+      ASSERT_EQ(rows.size(), 16U * 17U / 2U);
+      for (const auto& row : rows) ASSERT_NEAR(std::stod(row[2]), level / 8, 0.01) << plan << text;
+    }
+  }
 }
 
 TEST_F(Plans, SayWhatARecordingDoesNotHold) {
