@@ -48,7 +48,8 @@ void Attachments::chooseAttachments(const Target& target) {
   capacity_ = 4 * (target.max_draw_buffers - target.used_draw_buffers);
   if (draft_.es() && shader.version < 300 && !target.es_draw_buffers) {
     failure_ =
-        "A GLSL ES 1.00 shader has a single colour output in this context, which lacks GL_EXT_draw_buffers, so "
+        "A GLSL ES 1.00 shader has a single colour output in this context, which lacks GL_EXT_draw_buffers, "
+        "so "
         "nothing can be captured beside it; contexts of OpenGL ES have it (GStreamer: GST_GL_API=gles2 "
         "GST_GL_PLATFORM=egl).";
   } else if (capacity_ <= 0) {

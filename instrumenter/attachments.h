@@ -8,11 +8,11 @@
 //   ... sd_words0 = uvec4(3u, floatBitsToUint(a.x), floatBitsToUint(a.y), 0u) ...
 //   sd_capture0 = sd_words0;
 //
-// In shaders that take derivatives, as a texture's level of detail, words of numbers are made of more than these:
-// (sd_zero == 0u ? floatBitsToUint(a.x) : 0u), a uniform that is never set, hence 0, which no compiler knows.
-// llvmpipe keeps what is made and captured on one side of a branch in the register of the captured word itself,
-// which threads of the other side do not write: a derivative of it there would be made of what lay in theirs
-// before.
+// In shaders that take derivatives, as a texture's level of detail, words of numbers are made of more than
+// these: (sd_zero == 0u ? floatBitsToUint(a.x) : 0u), a uniform that is never set, hence 0, which no compiler
+// knows. llvmpipe keeps what is made and captured on one side of a branch in the register of the captured
+// word itself, which threads of the other side do not write: a derivative of it there would be made of what
+// lay in theirs before.
 //
 // Fragments that end in a discard leave nothing there: they append their words to a list in a storage block,
 // where the driver has those (AttachmentLayout::discarded_block).

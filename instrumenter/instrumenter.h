@@ -267,9 +267,9 @@ Result<WindowShader> instrumentWindow(const frontend::Shader&, const std::vector
 
 Result<RecordingShader> instrumentRecording(const frontend::Shader&, const Target&);
 
-// The user's shader with every output set before main (of a fragment shader its colours), to so many quarters,
-// integers to that number. Where what it leaves depends on that, it leaves an output undefined. Nothing else is changed and nothing
-// captured.
+// The user's shader with every output set before main (of a fragment shader its colours), to so many
+// quarters, integers to that number. Where what it leaves depends on that, it leaves an output undefined.
+// Nothing else is changed and nothing captured.
 Result<std::string> instrumentFilledOutputs(const frontend::Shader&, const Target&, int quarters);
 
 // The user's tokens, emitted with nothing inserted: the round trip.

@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint32_t kFirstRoomPerThread = 1 << 16;  // words a recorded thread may write at the first try
 constexpr std::uint32_t kLeastRoomPerThread = 1 << 10;
 constexpr std::uint64_t kMostWordsAtFirst = 1 << 22;  // every driver has as much (OpenGL 4.3, table 23.64)
-constexpr std::uint32_t kThreadsPerPixel = 16;    // fragments expected at most on one pixel, first try
-constexpr std::uint32_t kThreadsPerIdentity = 4;  // a vertex may be shaded several times
+constexpr std::uint32_t kThreadsPerPixel = 16;        // fragments expected at most on one pixel, first try
+constexpr std::uint32_t kThreadsPerIdentity = 4;      // a vertex may be shaded several times
 
 }  // namespace
 

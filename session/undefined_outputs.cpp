@@ -17,6 +17,7 @@ Outputs outputsOf(const Execution& execution, int record_words) {
   const auto stride = static_cast<std::size_t>(execution.feedback_words);
   const auto words = static_cast<std::size_t>(record_words);
   std::vector<std::uint32_t>& records = outputs.emplace_back();
+  if (stride < words) throw Error(Outcome::failed, "the agent's answer lacks outputs; report this as a bug");
   for (std::size_t at = stride - words; at + words <= execution.feedback.size(); at += stride) {
     const auto first = execution.feedback.begin() + static_cast<std::ptrdiff_t>(at);
     records.insert(records.end(), first, first + record_words);
@@ -32,7 +33,8 @@ Execution drawn(Session& session, const Prepared& prepared) {
 }
 
 Outputs drawnFilled(Session& session, int fill, int record_words) {
-  const auto text = instrumenter::instrumentFilledOutputs(session.shader(session.stage()), session.target(), fill);
+  const auto text =
+      instrumenter::instrumentFilledOutputs(session.shader(session.stage()), session.target(), fill);
   if (const auto* failure = std::get_if<instrumenter::Failure>(&text)) {
     throw Error(Outcome::cannot_debug, failure->reason);
   }
@@ -96,7 +98,8 @@ std::uint64_t differingDefined(const UndefinedOutputs& undefined, const Executio
       const bool there = i < outputs.size() && c < outputs[i].size();
       count += !undefined.undefined[i][c] && !(there && outputs[i][c] == expected[c]);
     }
-    if (i < outputs.size() && outputs[i].size() > expected.size()) count += outputs[i].size() - expected.size();
+    if (i < outputs.size() && outputs[i].size() > expected.size())
+      count += outputs[i].size() - expected.size();
   }
   return count;
 }

@@ -1,7 +1,7 @@
-// Which components of its outputs the shader leaves undefined: it ends without having written them (GLSL 4.60,
-// 7.1.5 and 4.3.6), so that two programs from the same text may leave different things there. Of the fragment
-// shader the components of the draw's colour buffers, of the vertex and the evaluation shader those of what
-// transform feedback records.
+// Which components of its outputs the shader leaves undefined: it ends without having written them
+// (GLSL 4.60, 7.1.5 and 4.3.6), so that two programs from the same text may leave different things there. Of
+// the fragment shader the components of the draw's colour buffers, of the vertex and the evaluation shader
+// those of what transform feedback records.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,9 @@ struct UndefinedOutputs {
   int record_words = 0;                              // of transform feedback
 };
 
-// Of the selected stage at the current draw? A geometry shader's outputs are undefined anew behind each vertex
-// that it emits; a control shader's go to another stage; and of a target's layers and samples one is looked at.
+// Of the selected stage at the current draw? A geometry shader's outputs are undefined anew behind each
+// vertex that it emits; a control shader's go to another stage; and of a target's layers and samples one is
+// looked at.
 bool tellsUndefinedOutputs(Session&);
 
 // Draws the program's own text with its outputs set to one value before main, then to another: what differs

@@ -109,8 +109,8 @@ Refusal Check::compare(Traces& traces, const Again& again, wire::ExecutedT& exec
   if (Refusal refusal = traces.differences(reference_.data(), scratch_, differing); !refusal.text.empty())
     return refusal;
   // An open order of writes may come out the same a few times.
-  const bool writes_memory = std::any_of(sections.begin(), sections.end(),
-                                         [](const Section& section) { return !section.output; });
+  const bool writes_memory =
+      std::any_of(sections.begin(), sections.end(), [](const Section& section) { return !section.output; });
   const int redraws = !any(differing) ? 0 : writes_memory ? kRedrawsOfWrites : 1;
   for (int i = 0; i < redraws && !any(unstable); ++i) {
     if (Refusal refusal = again(); !refusal.text.empty()) return refusal;

@@ -87,7 +87,8 @@ void noteCompiled(GLuint shader, std::vector<std::string> search_paths) {
 std::string loadedAsBinary(const char* what) {
   return std::string("the ") + what +
          " was loaded as a binary: there is no source; switch the program's shader cache off (Chromium: "
-         "--disable-gpu-shader-disk-cache; Qt: QT_DISABLE_SHADER_DISK_CACHE=1 QSG_RHI_DISABLE_SHADER_DISK_CACHE=1)";
+         "--disable-gpu-shader-disk-cache; Qt: QT_DISABLE_SHADER_DISK_CACHE=1 "
+         "QSG_RHI_DISABLE_SHADER_DISK_CACHE=1)";
 }
 
 void markWithoutText(GLsizei count, const GLuint* shaders, const std::string& reason) {

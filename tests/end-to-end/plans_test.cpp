@@ -89,7 +89,8 @@ void main() {
     ASSERT_EQ(std::stod(row[2]), std::stod(row[0]) + 0.5 + 1024 * (std::stod(row[1]) + 0.5));
 }
 
-// The branch parts neighbours, the coordinate is made on one side of it. Level l of the texture reads as l / 8.
+// The branch parts neighbours, the coordinate is made on one side of it. Level l of the texture reads as l
+// / 8.
 constexpr const char* kLevelInABranch = R"glsl(#version 330
 uniform sampler2D map;
 out vec4 color;
